@@ -1,0 +1,136 @@
+/* Lockstitch: assets. Immutable topology and material, built once and shared by any number of objects and
+ * worlds.
+ *
+ * An asset is described in doubles, since it comes from a level file or a tool; they are taken apart bit by
+ * bit and everything is built in integers, so the same description gives the same asset everywhere. Its
+ * fingerprint is a hash of what was built: compare it between machines when in doubt.
+ */
+#ifndef LOCKSTITCH_ASSET_H
+#define LOCKSTITCH_ASSET_H
+
+#include <lockstitch/fixed.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lks_asset lks_asset;
+
+/* Limits of one asset. */
+#define LKS_MAX_VERTICES 4194304u
+#define LKS_MAX_TRIANGLES 8388608u
+#define LKS_MAX_ASSET_COORDINATE 60.0 /* metres from the asset's origin, on each axis */
+
+/* The material of one family of distance constraints (XPBD eq. 26). */
+typedef struct lks_distance_material {
+    double compliance; /* m/N, the inverse of stiffness; 0 is inextensible; 0 or 1e-15 .. 1e6 */
+    double damping; /* N·s/m along the constraint (Rayleigh β); 0 or 1e-9 .. 1e9. No effect where compliance
+                       is 0 */
+    uint32_t enabled;  /* 0: this family is not built, and costs nothing */
+    uint32_t reserved; /* 0 */
+} lks_distance_material;
+
+typedef enum lks_constraint_family {
+    LKS_CONSTRAINT_STRETCH = 0,
+    LKS_CONSTRAINT_SHEAR = 1,
+    LKS_CONSTRAINT_BEND = 2
+} lks_constraint_family;
+
+/* A cloth: from a grid (columns and rows ≥ 2) or from an indexed triangle mesh (vertex_count > 0).
+ *
+ * Grid: vertices on the local x-y plane, centred; vertex (column, row) has index row * columns + column; row
+ * 0 is at the top (+y), column 0 at the left (-x); the front is +z. Stretch along rows and columns, shear
+ * along both diagonals, bend between vertices two apart in a row or column.
+ *
+ * Mesh: stretch along the edges; an edge that is the longest side of both its triangles counts as the
+ * diagonal of a quad: it and the pair of vertices opposite to it are shear. The opposite pairs of all other
+ * inner edges are bend. Where shear is disabled there are no diagonals: all edges are stretch and all
+ * opposite pairs bend. Of two constraints between the same two vertices the first is kept. An edge of three
+ * or more triangles (non-manifold) joins its first triangle's opposite vertex with each other one's. Refused:
+ * a vertex in no triangle, zero-length edges, triangles without area (twice the area below 1e-9 of the
+ * longest side squared), the same triangle twice (in whatever winding), constraints longer than 100 m.
+ */
+typedef struct lks_cloth_def {
+    uint32_t struct_size;      /* set by lks_default_cloth_def */
+    uint32_t columns;          /* grid: 2 .. 4096 */
+    uint32_t rows;             /* grid: 2 .. 4096 */
+    uint32_t vertex_count;     /* mesh: 3 .. LKS_MAX_VERTICES */
+    uint32_t triangle_count;   /* mesh: 1 .. LKS_MAX_TRIANGLES */
+    uint32_t reserved;         /* 0 */
+    double width;              /* grid: metres along x, > 0 */
+    double height;             /* grid: metres along y, > 0 */
+    const double* vertices;    /* mesh: vertex_count × (x, y, z), metres; read during the call only */
+    const uint32_t* triangles; /* mesh: triangle_count × 3 vertex indices, counter-clockwise from the front */
+    /* Exactly one of these three is given; the others are 0 or null. Each vertex must come to 1e-8 .. 1e6 kg.
+     */
+    double mass;                 /* kg, spread by area */
+    double area_density;         /* kg/m² */
+    const double* vertex_masses; /* kg, one a vertex */
+    lks_distance_material stretch;
+    lks_distance_material shear;
+    lks_distance_material bend;
+    double particle_radius; /* metres, 0 .. 1: the distance kept from colliders */
+    double friction;        /* factor on the collider's friction, 0 .. 100 */
+    lks_allocator allocator;
+    lks_error* error; /* null, or receives the sentence when the call fails */
+} lks_cloth_def;
+
+/* Grid 2×2 m of 21×21 vertices, 0.3 kg/m², inextensible stretch, shear 1e-7, bend 1e-5 m/N. */
+LKS_API lks_cloth_def lks_default_cloth_def(void);
+LKS_API lks_result lks_asset_create_cloth(const lks_cloth_def* def, lks_asset** asset);
+
+/* A rope: from a length (straight along local +x from the origin, `segments` equal parts) or from a polyline
+ * (point_count > 0; one segment between each two points). Bend constraints join points two apart. */
+typedef struct lks_rope_def {
+    uint32_t struct_size; /* set by lks_default_rope_def */
+    uint32_t segments;    /* 1 .. 1048575 */
+    uint32_t point_count; /* polyline: 2 .. 1048576 */
+    uint32_t reserved;    /* 0 */
+    double length;        /* metres, above 0 and at most 60 */
+    const double* points; /* polyline: point_count × (x, y, z), metres; read during the call only */
+    /* Exactly one of these three is given; the others are 0 or null. Each point must come to 1e-8 .. 1e6 kg.
+     */
+    double mass;                 /* kg, spread by length */
+    double linear_density;       /* kg/m */
+    const double* vertex_masses; /* kg, one a point */
+    lks_distance_material stretch;
+    lks_distance_material bend; /* needs at least 2 segments */
+    double particle_radius;     /* metres, 0 .. 1 */
+    double friction;            /* factor on the collider's friction, 0 .. 100 */
+    lks_allocator allocator;
+    lks_error* error;
+} lks_rope_def;
+
+/* 5 m in 50 segments, 0.2 kg/m, inextensible, bend 1e-4 m/N, radius 1 cm. */
+LKS_API lks_rope_def lks_default_rope_def(void);
+LKS_API lks_result lks_asset_create_rope(const lks_rope_def* def, lks_asset** asset);
+
+/* Gives up the caller's hold. Worlds that know the asset keep it alive. Null is allowed. */
+LKS_API void lks_asset_release(lks_asset* asset);
+
+/* 0 for null. The fingerprint covers everything that can influence a simulation. */
+LKS_API uint64_t lks_asset_fingerprint(const lks_asset* asset);
+LKS_API uint32_t lks_asset_vertex_count(const lks_asset* asset);
+LKS_API uint32_t lks_asset_constraint_count(const lks_asset* asset);
+LKS_API uint32_t lks_asset_colour_count(const lks_asset* asset);
+LKS_API uint32_t lks_asset_triangle_count(const lks_asset* asset); /* 0 for a rope */
+
+/* Writes triangle_count × 3 indices in the caller's vertex numbering and order; a grid has two triangles a
+ * cell. */
+LKS_API lks_result lks_asset_triangles(const lks_asset* asset, uint32_t* indices, size_t index_capacity);
+
+/* One distance constraint, in the canonical order in which the solver visits them. */
+typedef struct lks_constraint_info {
+    uint32_t vertex_a, vertex_b; /* caller's numbering */
+    uint32_t family;             /* an lks_constraint_family */
+    uint32_t colour;
+    lks_fixed rest_length; /* metres, rounded to 2^-40 */
+} lks_constraint_info;
+
+LKS_API lks_result lks_asset_constraint(const lks_asset* asset, uint32_t constraint,
+                                        lks_constraint_info* info);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,15 @@
+/* Lockstitch: deterministic fixed-point physics for lockstep and rollback games. Includes the whole API. */
+#ifndef LOCKSTITCH_LOCKSTITCH_H
+#define LOCKSTITCH_LOCKSTITCH_H
+
+#include <lockstitch/asset.h>
+#include <lockstitch/authoring.h>
+#include <lockstitch/base.h>
+#include <lockstitch/collider.h>
+#include <lockstitch/fixed.h>
+#include <lockstitch/object.h>
+#include <lockstitch/state.h>
+#include <lockstitch/view.h>
+#include <lockstitch/world.h>
+
+#endif

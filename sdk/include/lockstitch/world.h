@@ -1,0 +1,88 @@
+/* Lockstitch: the world, and its time. */
+#ifndef LOCKSTITCH_WORLD_H
+#define LOCKSTITCH_WORLD_H
+
+#include <lockstitch/fixed.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lks_world lks_world;
+
+/* What lks_world_advance does with time beyond max_ticks_per_advance. */
+typedef enum lks_excess_time {
+    LKS_EXCESS_TIME_DROP = 0, /* whole ticks beyond the cap are dropped and counted: the game slows down */
+    LKS_EXCESS_TIME_KEEP = 1  /* they stay due and run in later calls: the game catches up */
+} lks_excess_time;
+
+/* Called before each tick, by lks_world_step and lks_world_advance alike: the place to apply this tick's
+ * inputs, so that they meet the same tick whatever the frame rate. `tick` is the number of ticks done so far.
+ * It may use the world freely, but for lks_world_step, lks_world_advance, lks_world_load and
+ * lks_world_destroy, which are refused there. */
+typedef struct lks_tick_hook {
+    void (*call)(void* user, lks_world* world, uint64_t tick); /* null: none */
+    void* user;
+} lks_tick_hook;
+
+typedef struct lks_world_def {
+    uint32_t struct_size;  /* set by lks_default_world_def */
+    uint32_t tick_rate_hz; /* ticks a second, 1 .. 10000 */
+    uint32_t substeps;     /* a tick, 1 .. 1000; tick_rate_hz * substeps ≤ 1000000 */
+    uint32_t iterations;   /* a substep, 1 .. 1000; small steps beat iterations (Macklin et al. 2019) */
+    lks_vec3 gravity;      /* m/s², each axis within ±1000 */
+    uint32_t max_ticks_per_advance;   /* 1 .. 10000 */
+    uint32_t excess_time;             /* an lks_excess_time */
+    uint32_t keep_previous_positions; /* 1: interpolated views work (24 bytes a particle); 0: they show the
+                                         last tick */
+    uint32_t reserved;                /* 0 */
+    lks_tick_hook before_tick;
+    lks_allocator allocator;
+    lks_log log;
+    lks_error* error; /* null, or receives the sentence when lks_world_create fails */
+} lks_world_def;
+
+/* 60 Hz, 20 substeps of 1 iteration, gravity -9.81 m/s² on y, at most 8 ticks a call, the rest dropped. */
+LKS_API lks_world_def lks_default_world_def(void);
+LKS_API lks_result lks_world_create(const lks_world_def* def, lks_world** world);
+LKS_API void lks_world_destroy(lks_world* world); /* null is allowed */
+
+/* The last failed call on this world; result is LKS_OK while none has failed. Never null but for a null
+ * world. */
+LKS_API const lks_error* lks_world_last_error(const lks_world* world);
+
+/* Exactly one tick. Allocates nothing; the work is bounded by substeps × iterations. */
+LKS_API lks_result lks_world_step(lks_world* world);
+
+/* Runs the ticks that have become due after elapsed_ns (0 .. 10^14) more nanoseconds. Time is counted in
+ * units of 1 / (tick_rate_hz · 10^9) s, so nothing drifts. ticks_run may be null. The clock (what is due, and
+ * the interpolation) belongs to the view: it is no part of the state, its hash or its images. */
+LKS_API lks_result lks_world_advance(lks_world* world, int64_t elapsed_ns, uint32_t* ticks_run);
+
+/* How far the clock is past the last tick, as a fraction of a tick in Q0.32. For drawing only. */
+LKS_API uint32_t lks_world_interpolation(const lks_world* world);
+
+/* Ticks since the world was created (part of the state); 0 for null. */
+LKS_API uint64_t lks_world_tick(const lks_world* world);
+
+LKS_API lks_result lks_world_set_gravity(lks_world* world, lks_vec3 gravity);
+LKS_API lks_result lks_world_gravity(const lks_world* world, lks_vec3* gravity);
+
+/* What was clamped since creation, never silently. No part of the state. */
+typedef struct lks_world_counters {
+    uint64_t position_clamps; /* a particle's axis left its object's range of ±64 m */
+    uint64_t speed_clamps;    /* a particle's axis was faster than the speed limit */
+    uint64_t target_clamps;   /* a pin's target lay outside its object's range */
+    uint64_t world_edge_hits; /* an object's origin could not follow it past ±8,388 km */
+    uint64_t dropped_ticks;   /* by LKS_EXCESS_TIME_DROP */
+} lks_world_counters;
+
+LKS_API lks_result lks_world_get_counters(const lks_world* world, lks_world_counters* counters);
+
+/* The speed limit of each axis in m/s: the lower of 1000 m/s and 16 m a substep. */
+LKS_API lks_fixed lks_world_speed_limit(const lks_world* world);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
