@@ -1,0 +1,93 @@
+#include "api/authoring_text.h"
+
+#include "api/authoring_number.h"
+
+namespace lks {
+namespace {
+
+using fixed::Scaled;
+
+constexpr int significant_digits = 9;
+constexpr std::uint64_t digits_limit = 1000000000; // 10^9
+
+// number = digits · 10^exponent with 10^8 ≤ digits < 10^9, rounded.
+struct Decimal {
+    std::uint64_t digits;
+    int exponent;
+};
+
+Decimal to_decimal(const Scaled& number) {
+    const Scaled ten = Scaled::from_u64(10);
+    const Scaled high = Scaled::from_u64(digits_limit);
+    const Scaled low = Scaled::from_u64(digits_limit / 10);
+    Scaled scaled = number;
+    int exponent = 0;
+    for (; !(scaled < high); ++exponent) {
+        scaled = scaled / ten;
+    }
+    for (; scaled < low; --exponent) {
+        scaled = scaled * ten;
+    }
+    Decimal decimal{scaled.to_fixed(0), exponent};
+    if (decimal.digits == digits_limit) {
+        decimal = {digits_limit / 10, exponent + 1};
+    }
+    return decimal;
+}
+
+void write_plain(Sentence& sentence, std::uint64_t digits, int exponent) {
+    // A number between 1e-5 and 1e9, whose trailing zeros are gone.
+    std::uint64_t power = 1;
+    for (int i = 0; i < -exponent; ++i) {
+        power *= 10;
+    }
+    for (int i = 0; i < exponent; ++i) {
+        digits *= 10;
+    }
+    sentence << digits / power;
+    if (power == 1) {
+        return;
+    }
+    sentence << ".";
+    std::uint64_t rest = digits % power;
+    while (power > 1) {
+        power /= 10;
+        sentence << rest / power;
+        rest %= power;
+    }
+}
+
+} // namespace
+
+Sentence& operator<<(Sentence& sentence, const Authored& number) {
+    switch (classify_double(number.value)) {
+    case NumberClass::not_a_number:
+        return sentence << "NaN";
+    case NumberClass::infinite:
+        return sentence << "infinite";
+    case NumberClass::finite:
+        break;
+    }
+    SignedScaled exact;
+    (void)decode_double(number.value, exact);
+    if (exact.magnitude.is_zero()) {
+        return sentence << "0";
+    }
+    if (exact.negative) {
+        sentence << "-";
+    }
+    Decimal decimal = to_decimal(exact.magnitude);
+    while (decimal.digits % 10 == 0) {
+        decimal.digits /= 10;
+        ++decimal.exponent;
+    }
+    const bool plain =
+        decimal.exponent >= -(significant_digits + 4) && decimal.exponent <= 0 + significant_digits - 1;
+    if (plain && decimal.digits < digits_limit && (decimal.exponent <= 0 || decimal.digits < 1000)) {
+        write_plain(sentence, decimal.digits, decimal.exponent);
+        return sentence;
+    }
+    return sentence << decimal.digits << "e" << decimal.exponent;
+}
+
+} // namespace lks

@@ -1,0 +1,16 @@
+// Authored numbers in sentences.
+#pragma once
+
+#include "api/report.h"
+
+namespace lks {
+
+// Prints the number in decimal, up to nine significant digits, from its bits: `sentence <<
+// Authored{def.mass}`.
+struct Authored {
+    double value;
+};
+
+Sentence& operator<<(Sentence& sentence, const Authored& number);
+
+} // namespace lks

@@ -1,0 +1,60 @@
+// What the rest of fixed/ needs from plain 64-bit integers, without undefined behaviour at any input.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace lks::fixed {
+
+// Modulo 2^64, through unsigned: signed overflow would be undefined.
+constexpr std::int64_t wrapping_add(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
+constexpr std::int64_t wrapping_subtract(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
+}
+
+constexpr std::int64_t wrapping_negate(std::int64_t a) {
+    return static_cast<std::int64_t>(0 - static_cast<std::uint64_t>(a));
+}
+
+constexpr std::int64_t wrapping_multiply(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(b));
+}
+
+// |a|; 2^63 for INT64_MIN.
+constexpr std::uint64_t magnitude(std::int64_t a) {
+    return a < 0 ? 0 - static_cast<std::uint64_t>(a) : static_cast<std::uint64_t>(a);
+}
+
+// ±size, saturating at INT64_MIN and INT64_MAX.
+constexpr std::int64_t with_sign(std::uint64_t size, bool negative) {
+    constexpr std::uint64_t beyond = std::uint64_t{1} << 63;
+    if (size >= beyond)
+        return negative ? INT64_MIN : INT64_MAX;
+    const std::int64_t value = static_cast<std::int64_t>(size);
+    return negative ? -value : value;
+}
+
+constexpr std::int64_t saturating_add(std::int64_t a, std::int64_t b) {
+    const std::int64_t sum = wrapping_add(a, b);
+    const bool overflow = ((a ^ sum) & (b ^ sum)) < 0;
+    return overflow ? (a < 0 ? INT64_MIN : INT64_MAX) : sum;
+}
+
+// a / 2^n to the nearest, half up; 0 <= n <= 63. The bit below the cut is added after the shift, so that
+// nothing overflows.
+constexpr std::int64_t shift_right_rounded(std::int64_t a, int n) {
+    if (n == 0)
+        return a;
+    return (a >> n) + ((a >> (n - 1)) & 1);
+}
+
+constexpr std::uint64_t shift_right_rounded(std::uint64_t a, int n) {
+    if (n == 0)
+        return a;
+    return (a >> n) + ((a >> (n - 1)) & 1);
+}
+
+} // namespace lks::fixed
