@@ -1,0 +1,12 @@
+// Each kind of asset from its definition. `build` is empty; on failure it has reported why.
+#pragma once
+
+#include "asset/build.h"
+
+namespace lks {
+
+lks_result build_cloth_grid(Build& build, const lks_cloth_def& def);
+lks_result build_cloth_mesh(Build& build, const lks_cloth_def& def);
+lks_result build_rope(Build& build, const lks_rope_def& def);
+
+} // namespace lks
