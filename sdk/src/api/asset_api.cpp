@@ -1,0 +1,210 @@
+// lockstitch/asset.h.
+#include <lockstitch/asset.h>
+
+#include <algorithm>
+
+#include "asset/authoring_values.h"
+#include "asset/create.h"
+
+using namespace lks;
+
+namespace {
+
+// What both kinds of definitions have in common, from checking to handing out.
+template <typename Def, typename Fill>
+lks_result create_asset(const Def* def, lks_asset** asset, lks_asset::Kind kind, const Fill& fill) {
+    if (def == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (def->struct_size != sizeof(Def)) {
+        return LKS_ERROR_STRUCT_SIZE; // where its error field lies is unknown
+    }
+    if (asset == nullptr) {
+        return report(def->error, LKS_ERROR_NULL_ARGUMENT,
+                      Sentence() << "There is no place for the new asset: asset is null.");
+    }
+    if (def->reserved != 0) {
+        return report(def->error, LKS_ERROR_INVALID_ARGUMENT,
+                      Sentence() << "The definition's reserved field is " << def->reserved
+                                 << "; it must be 0.");
+    }
+    if (!allocator_is_valid(def->allocator)) {
+        return report(def->error, LKS_ERROR_INVALID_ARGUMENT,
+                      Sentence() << "The asset's allocator has only one of its two functions.");
+    }
+    auto* made = create<lks_asset>(def->allocator, def->allocator);
+    if (made == nullptr) {
+        return report(def->error, LKS_ERROR_OUT_OF_MEMORY,
+                      Sentence() << "The allocator has no memory for an asset.");
+    }
+    made->kind = kind;
+    Build build(*made, def->error);
+    const lks_result result = fill(build, *made);
+    if (result != LKS_OK) {
+        release_asset(made);
+        return result;
+    }
+    *asset = made;
+    return report(def->error, LKS_OK, Sentence());
+}
+
+} // namespace
+
+extern "C" {
+
+lks_cloth_def lks_default_cloth_def(void) {
+    lks_cloth_def def{};
+    def.struct_size = sizeof(lks_cloth_def);
+    def.columns = 21;
+    def.rows = 21;
+    def.width = 2.0;
+    def.height = 2.0;
+    def.area_density = 0.3;
+    def.stretch = {0.0, 0.0, 1, 0};
+    def.shear = {1e-7, 0.0, 1, 0};
+    def.bend = {1e-5, 0.0, 1, 0};
+    def.particle_radius = 0.01;
+    def.friction = 1.0;
+    return def;
+}
+
+lks_result lks_asset_create_cloth(const lks_cloth_def* def, lks_asset** asset) {
+    return create_asset(def, asset, lks_asset::Kind::cloth, [def](Build& build, lks_asset& made) {
+        const struct {
+            const char* name;
+            const lks_distance_material& material;
+        } families[family_count] = {{"stretch", def->stretch}, {"shear", def->shear}, {"bend", def->bend}};
+        for (std::uint32_t i = 0; i < family_count; ++i) {
+            if (const lks_result result =
+                    read_family(build.error, families[i].name, families[i].material, made.families[i]);
+                result != LKS_OK) {
+                return result;
+            }
+        }
+        if (const lks_result result = read_surface(build.error, def->particle_radius, def->friction, made);
+            result != LKS_OK) {
+            return result;
+        }
+        return def->vertex_count > 0 ? build_cloth_mesh(build, *def) : build_cloth_grid(build, *def);
+    });
+}
+
+lks_rope_def lks_default_rope_def(void) {
+    lks_rope_def def{};
+    def.struct_size = sizeof(lks_rope_def);
+    def.segments = 50;
+    def.length = 5.0;
+    def.linear_density = 0.2;
+    def.stretch = {0.0, 0.0, 1, 0};
+    def.bend = {1e-4, 0.0, 1, 0};
+    def.particle_radius = 0.01;
+    def.friction = 1.0;
+    return def;
+}
+
+lks_result lks_asset_create_rope(const lks_rope_def* def, lks_asset** asset) {
+    return create_asset(def, asset, lks_asset::Kind::rope, [def](Build& build, lks_asset& made) {
+        if (const lks_result result =
+                read_family(build.error, "stretch", def->stretch, made.families[LKS_CONSTRAINT_STRETCH]);
+            result != LKS_OK) {
+            return result;
+        }
+        if (const lks_result result =
+                read_family(build.error, "bend", def->bend, made.families[LKS_CONSTRAINT_BEND]);
+            result != LKS_OK) {
+            return result;
+        }
+        if (const lks_result result = read_surface(build.error, def->particle_radius, def->friction, made);
+            result != LKS_OK) {
+            return result;
+        }
+        return build_rope(build, *def);
+    });
+}
+
+void lks_asset_release(lks_asset* asset) {
+    release_asset(asset);
+}
+
+uint64_t lks_asset_fingerprint(const lks_asset* asset) {
+    return asset == nullptr ? 0 : asset->fingerprint;
+}
+
+uint32_t lks_asset_vertex_count(const lks_asset* asset) {
+    return asset == nullptr ? 0 : asset->vertex_count();
+}
+
+uint32_t lks_asset_constraint_count(const lks_asset* asset) {
+    return asset == nullptr ? 0 : asset->constraint_count();
+}
+
+uint32_t lks_asset_colour_count(const lks_asset* asset) {
+    return asset == nullptr ? 0 : asset->colour_count;
+}
+
+uint32_t lks_asset_triangle_count(const lks_asset* asset) {
+    return asset == nullptr ? 0 : static_cast<uint32_t>(asset->triangles.size() / 3);
+}
+
+lks_result lks_asset_triangles(const lks_asset* asset, uint32_t* indices, size_t index_capacity) {
+    if (asset == nullptr || indices == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (index_capacity < asset->triangles.size()) {
+        return LKS_ERROR_BUFFER_TOO_SMALL;
+    }
+    std::copy(asset->triangles.begin(), asset->triangles.end(), indices);
+    return LKS_OK;
+}
+
+lks_result lks_asset_constraint(const lks_asset* asset, uint32_t constraint, lks_constraint_info* info) {
+    if (asset == nullptr || info == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (constraint >= asset->constraint_count()) {
+        return LKS_ERROR_INVALID_ARGUMENT;
+    }
+    const Batch* batch = std::upper_bound(asset->batches.begin(), asset->batches.end(), constraint,
+                                          [](uint32_t i, const Batch& b) { return i < b.first; }) -
+                         1;
+    constexpr std::int64_t half = std::int64_t{1} << (coordinate_from_world_shift - 1);
+    const Constraint& ends = asset->constraints[constraint];
+    info->vertex_a = asset->particle_to_vertex[ends.a];
+    info->vertex_b = asset->particle_to_vertex[ends.b];
+    info->family = batch->family;
+    info->colour = batch->colour;
+    info->rest_length = (asset->rest_lengths[constraint] + half) >> coordinate_from_world_shift;
+    return LKS_OK;
+}
+
+const char* lks_result_text(lks_result result) {
+    switch (result) {
+    case LKS_OK:
+        return "ok";
+    case LKS_ERROR_NULL_ARGUMENT:
+        return "null argument";
+    case LKS_ERROR_INVALID_ARGUMENT:
+        return "invalid argument";
+    case LKS_ERROR_STRUCT_SIZE:
+        return "wrong struct size";
+    case LKS_ERROR_STALE_ID:
+        return "stale id";
+    case LKS_ERROR_OUT_OF_MEMORY:
+        return "out of memory";
+    case LKS_ERROR_BUFFER_TOO_SMALL:
+        return "buffer too small";
+    case LKS_ERROR_MISALIGNED:
+        return "misaligned buffer";
+    case LKS_ERROR_CORRUPT_IMAGE:
+        return "corrupt image";
+    case LKS_ERROR_FOREIGN_IMAGE:
+        return "foreign image";
+    case LKS_ERROR_LIMIT:
+        return "limit reached";
+    case LKS_ERROR_UNSUPPORTED:
+        return "unsupported";
+    }
+    return "unknown result";
+}
+
+} // extern "C"

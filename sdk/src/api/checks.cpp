@@ -1,0 +1,50 @@
+#include "api/checks.h"
+
+namespace lks {
+
+Sentence out_of_range(const char* name, const lks_vec3& value, const char* unit, std::int64_t limit) {
+    Sentence sentence;
+    (sentence << "The " << name << " (").world_value(value.x) << ", ";
+    sentence.world_value(value.y) << ", ";
+    sentence.world_value(value.z) << ") " << unit << " lies outside its range of plus or minus ";
+    return sentence.world_value(limit) << " on each axis.";
+}
+
+Sentence out_of_range(const char* name, std::int64_t value, const char* unit, std::int64_t low,
+                      std::int64_t high) {
+    Sentence sentence;
+    (sentence << "The " << name << " ").world_value(value) << unit << " lies outside its range from ";
+    sentence.world_value(low) << " to ";
+    return sentence.world_value(high) << ".";
+}
+
+Sentence null_argument(const char* function, const char* name) {
+    return Sentence() << function << " needs " << name << ", which is null.";
+}
+
+Sentence wrong_struct_size(const char* type, std::uint32_t given, std::size_t expected) {
+    return Sentence() << "struct_size of " << type << " is " << given << " instead of "
+                      << static_cast<std::uint64_t>(expected)
+                      << "; start from lks_default_ and the type's name.";
+}
+
+lks_result check_rotation(const lks_world& world, const lks_rotation& rotation) {
+    if (fixed::is_nearly_unit(to_rotation(rotation))) {
+        return LKS_OK;
+    }
+    return world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                      Sentence() << "The rotation (" << rotation.x << ", " << rotation.y << ", " << rotation.z
+                                 << ", " << rotation.w
+                                 << ") / 2^30 is not a unit quaternion: its length must be 1 within 1e-4.");
+}
+
+lks_result check_vertex(const lks_world& world, const Object& object, std::uint32_t vertex) {
+    if (vertex < object.count()) {
+        return LKS_OK;
+    }
+    return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "Vertex " << vertex
+                                                             << " does not exist: the object has "
+                                                             << object.count() << " vertices.");
+}
+
+} // namespace lks

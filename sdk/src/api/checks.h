@@ -1,0 +1,43 @@
+// What every API call checks in the same way.
+#pragma once
+
+#include "fixed/formats.h"
+#include "fixed/rotation.h"
+#include "solver/world.h"
+
+namespace lks {
+
+inline bool within(std::int64_t value, std::int64_t limit) {
+    return value >= -limit && value <= limit;
+}
+
+inline bool within(const lks_vec3& value, std::int64_t limit) {
+    return within(value.x, limit) && within(value.y, limit) && within(value.z, limit);
+}
+
+inline fixed::Vec3 to_vec3(const lks_vec3& value) {
+    return {value.x, value.y, value.z};
+}
+
+inline lks_vec3 from_vec3(const fixed::Vec3& value) {
+    return {value.x, value.y, value.z};
+}
+
+inline fixed::Rotation to_rotation(const lks_rotation& value) {
+    return {value.x, value.y, value.z, value.w};
+}
+
+// LKS_OK, or reported: the quaternion's length is not one.
+lks_result check_rotation(const lks_world& world, const lks_rotation& rotation);
+
+// "the velocity (0, 1e5, 0) m/s lies outside ±1000".
+Sentence out_of_range(const char* name, const lks_vec3& value, const char* unit, std::int64_t limit);
+Sentence out_of_range(const char* name, std::int64_t value, const char* unit, std::int64_t low,
+                      std::int64_t high);
+Sentence null_argument(const char* function, const char* name);
+Sentence wrong_struct_size(const char* type, std::uint32_t given, std::size_t expected);
+
+// LKS_OK, or reported: `index` is no vertex of the object.
+lks_result check_vertex(const lks_world& world, const Object& object, std::uint32_t vertex);
+
+} // namespace lks

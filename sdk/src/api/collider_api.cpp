@@ -1,0 +1,187 @@
+// lockstitch/collider.h.
+#include <lockstitch/collider.h>
+
+#include <algorithm>
+
+#include "api/checks.h"
+#include "api/collider_checks.h"
+
+using namespace lks;
+
+namespace {
+
+std::int64_t to_coordinate(lks_fixed value) {
+    return value * (std::int64_t{1} << coordinate_from_world_shift); // at most 30 m, checked before
+}
+
+ColliderState make_collider(const lks_collider_def& def) {
+    ColliderState collider{};
+    collider.shape.kind = def.shape;
+    // What a shape does not have stays zero, so that equal colliders have equal states.
+    if (def.shape == LKS_SHAPE_SPHERE || def.shape == LKS_SHAPE_CAPSULE) {
+        collider.shape.radius = to_coordinate(def.radius);
+    }
+    if (def.shape == LKS_SHAPE_CAPSULE) {
+        collider.shape.half_length = to_coordinate(def.half_length);
+    }
+    if (def.shape == LKS_SHAPE_BOX) {
+        collider.shape.half_extents = {to_coordinate(def.half_extents.x), to_coordinate(def.half_extents.y),
+                                       to_coordinate(def.half_extents.z)};
+    }
+    collider.static_friction = def.static_friction;
+    collider.dynamic_friction = def.dynamic_friction;
+    place_collider(collider, to_vec3(def.transform.position),
+                   fixed::normalise(to_rotation(def.transform.rotation)));
+    return collider;
+}
+
+std::uint32_t free_index(const lks_world& world) {
+    std::uint32_t index = 0;
+    while (index < world.colliders.size() && world.colliders[index].used) {
+        ++index;
+    }
+    return index;
+}
+
+bool reserve_slot(lks_world& world, std::uint32_t index) {
+    if (index < world.colliders.capacity()) {
+        return true;
+    }
+    const std::size_t capacity = std::max<std::size_t>(16, 2 * world.colliders.size());
+    return world.candidates.reserve(capacity) && world.colliders.reserve(capacity);
+}
+
+lks_result check_transform(const lks_world& world, const lks_transform& transform) {
+    if (!within(transform.position, world_position_limit)) {
+        return world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                          out_of_range("collider's position", transform.position, "m", world_position_limit));
+    }
+    return check_rotation(world, transform.rotation);
+}
+
+// The collider, once the id and the transform are good; null, with the failure reported, otherwise.
+ColliderState* require_collider(lks_world* world, lks_collider_id id, const lks_transform& transform,
+                                lks_result& result) {
+    if (world == nullptr) {
+        result = LKS_ERROR_NULL_ARGUMENT;
+        return nullptr;
+    }
+    ColliderState* collider = world->find_collider(id);
+    result = collider == nullptr ? world->stale_collider(id) : check_transform(*world, transform);
+    return result == LKS_OK ? collider : nullptr;
+}
+
+} // namespace
+
+extern "C" {
+
+lks_collider_def lks_default_collider_def(void) {
+    lks_collider_def def{};
+    def.struct_size = sizeof(lks_collider_def);
+    def.shape = LKS_SHAPE_SPHERE;
+    def.transform.rotation.w = LKS_ROTATION_ONE;
+    def.radius = LKS_FIXED_RATIO(1, 2);
+    def.half_length = LKS_FIXED_RATIO(1, 2);
+    def.half_extents = {LKS_FIXED_RATIO(1, 2), LKS_FIXED_RATIO(1, 2), LKS_FIXED_RATIO(1, 2)};
+    def.static_friction = LKS_FIXED_RATIO(1, 2);
+    def.dynamic_friction = LKS_FIXED_RATIO(4, 10);
+    return def;
+}
+
+lks_result lks_world_add_collider(lks_world* world, const lks_collider_def* def, lks_collider_id* collider) {
+    if (world == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (def == nullptr || collider == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT,
+                           null_argument("lks_world_add_collider", def == nullptr ? "def" : "collider"));
+    }
+    if (def->struct_size != sizeof(lks_collider_def)) {
+        return world->fail(LKS_ERROR_STRUCT_SIZE,
+                           wrong_struct_size("collider_def", def->struct_size, sizeof(lks_collider_def)));
+    }
+    if (const lks_result result = check_collider_def(*world, *def); result != LKS_OK) {
+        return result;
+    }
+    if (const lks_result result = check_transform(*world, def->transform); result != LKS_OK) {
+        return result;
+    }
+    const std::uint32_t index = free_index(*world);
+    if (index >= LKS_MAX_COLLIDERS) {
+        return world->fail(LKS_ERROR_LIMIT,
+                           Sentence() << "A world holds at most " << LKS_MAX_COLLIDERS << " colliders.");
+    }
+    if (!reserve_slot(*world, index)) {
+        return world->fail_out_of_memory("a collider");
+    }
+    if (index == world->colliders.size()) {
+        world->colliders.push_reserved(ColliderSlot{{}, 1, false});
+    }
+    ColliderSlot& slot = world->colliders[index];
+    slot.collider = make_collider(*def);
+    slot.used = true;
+    *collider = {index, slot.generation};
+    return LKS_OK;
+}
+
+lks_result lks_world_remove_collider(lks_world* world, lks_collider_id collider) {
+    if (world == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (world->find_collider(collider) == nullptr) {
+        return world->stale_collider(collider);
+    }
+    ColliderSlot& slot = world->colliders[collider.index];
+    slot.used = false;
+    slot.collider = ColliderState{};
+    slot.generation = slot.generation == UINT32_MAX ? 1 : slot.generation + 1;
+    return LKS_OK;
+}
+
+uint32_t lks_world_has_collider(const lks_world* world, lks_collider_id collider) {
+    return world != nullptr && world->find_collider(collider) != nullptr ? 1u : 0u;
+}
+
+lks_result lks_collider_move_to(lks_world* world, lks_collider_id collider, lks_transform target) {
+    lks_result result = LKS_OK;
+    ColliderState* found = require_collider(world, collider, target, result);
+    if (found == nullptr) {
+        return result;
+    }
+    const fixed::Vec3 position = to_vec3(target.position);
+    const fixed::Rotation rotation = fixed::normalise(to_rotation(target.rotation));
+    if (result = check_motion(*world, *found, position, rotation); result != LKS_OK) {
+        return result;
+    }
+    found->target_position = position;
+    found->target_rotation = rotation;
+    return LKS_OK;
+}
+
+lks_result lks_collider_set_transform(lks_world* world, lks_collider_id collider, lks_transform transform) {
+    lks_result result = LKS_OK;
+    if (ColliderState* found = require_collider(world, collider, transform, result)) {
+        place_collider(*found, to_vec3(transform.position),
+                       fixed::normalise(to_rotation(transform.rotation)));
+    }
+    return result;
+}
+
+lks_result lks_collider_transform(const lks_world* world, lks_collider_id collider,
+                                  lks_transform* transform) {
+    if (world == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    const ColliderState* found = world->find_collider(collider);
+    if (found == nullptr) {
+        return world->stale_collider(collider);
+    }
+    if (transform == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_collider_transform", "transform"));
+    }
+    transform->position = from_vec3(found->position);
+    transform->rotation = {found->rotation.x, found->rotation.y, found->rotation.z, found->rotation.w};
+    return LKS_OK;
+}
+
+} // extern "C"

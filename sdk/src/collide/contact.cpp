@@ -1,0 +1,270 @@
+#include "collide/contact.h"
+
+#include <algorithm>
+
+#include "collide/saturation.h"
+
+namespace lks {
+namespace {
+
+// Positions relative to a shape's centre are followed within this ball; no shape reaches past 61 m. Differences of two
+// such positions then fit into 64 bits, and so do their lengths.
+constexpr std::int64_t followed_radius = coordinate_one * 63;
+
+// The plane that a particle may not get behind, in the shape's frame at the end of the substep.
+struct Contact {
+    fixed::Direction normal;
+    std::int64_t depth;      // of the particle's present position behind it, > 0
+    std::int64_t old_depth;  // the part of depth that was there when the substep began
+};
+
+// The relative way of one particle through the substep, in the shape's frame.
+struct Way {
+    fixed::Vec3 start;
+    fixed::Vec3 end;
+};
+
+bool is_followed(const fixed::Vec3& v) {
+    const auto coarse = [](std::int64_t a) { return fixed::magnitude(a) >> 32; };
+    const std::uint64_t x = coarse(v.x), y = coarse(v.y), z = coarse(v.z);
+    constexpr std::uint64_t radius = static_cast<std::uint64_t>(followed_radius) >> 32;
+    return x * x + y * y + z * z < radius * radius;
+}
+
+// px - c0 where it is too long: the point at which the way to `end`, which is followed, comes within the followed ball. What is
+// left out is at least a metre from the shape. Halved, as the differences may have 65 bits.
+fixed::Vec3 cut_start(const fixed::Vec3& start_position, const fixed::Vec3& start_centre, const fixed::Vec3& end) {
+    fixed::Vec3 outer = {(start_position.x >> 1) - (start_centre.x >> 1),
+                         (start_position.y >> 1) - (start_centre.y >> 1),
+                         (start_position.z >> 1) - (start_centre.z >> 1)};
+    fixed::Vec3 inner = {end.x >> 1, end.y >> 1, end.z >> 1};
+    // The way is below 2^64 units long; 16 halvings leave millimetres.
+    for (int halving = 0; halving < 16; ++halving) {
+        const fixed::Vec3 middle = {(outer.x >> 1) + (inner.x >> 1), (outer.y >> 1) + (inner.y >> 1),
+                                    (outer.z >> 1) + (inner.z >> 1)};
+        const bool inside = is_followed(saturating_add(middle, middle));
+        (inside ? inner : outer) = middle;
+    }
+    return inner + inner;
+}
+
+// Where the particle is, and was at the start, in the shape's frame. False: too far away to touch.
+bool find_way(const ContactFrame& frame, const fixed::Vec3& position, const fixed::Vec3& start, Way& way) {
+    const fixed::Vec3 relative_end = saturating_subtract(position, frame.end_centre);
+    if (!is_followed(relative_end)) {
+        return false;
+    }
+    fixed::Vec3 relative_start = saturating_subtract(start, frame.start_centre);
+    if (!is_followed(relative_start)) {
+        relative_start = cut_start(start, frame.start_centre, relative_end);
+    }
+    way.end = fixed::rotate_transposed(frame.end_rotation, relative_end);
+    way.start = fixed::rotate_transposed(frame.start_rotation, relative_start);
+    return true;
+}
+
+// For planes: an object may reach 128 m from the plane's centre, so that the differences are halved, too.
+fixed::Vec3 plane_local(const fixed::Matrix3& rotation, const fixed::Vec3& position, const fixed::Vec3& centre) {
+    const auto half = [](std::int64_t a, std::int64_t b) {
+        return std::clamp((a >> 1) - (b >> 1), -coordinate_limit, coordinate_limit);
+    };
+    const fixed::Vec3 relative = {half(position.x, centre.x), half(position.y, centre.y), half(position.z, centre.z)};
+    const fixed::Vec3 local = fixed::rotate_transposed(rotation, relative);
+    return {saturating_double(local.x), saturating_double(local.y), saturating_double(local.z)};
+}
+
+// rest · (distance / closing), rounded towards p's side; 0 <= distance < closing.
+fixed::Vec3 advance(const fixed::Vec3& rest, std::int64_t distance, std::int64_t closing) {
+    const int shift = std::max(0, 32 - std::countl_zero(static_cast<std::uint64_t>(closing)));
+    const std::uint64_t divisor = (static_cast<std::uint64_t>(closing) >> shift) + 1;
+    const std::uint64_t share = ((static_cast<std::uint64_t>(distance) >> shift) << 30) / divisor;  // Q30, < 1
+    const auto factor = static_cast<std::int32_t>(share);
+    return {fixed::scale_component(factor, rest.x), fixed::scale_component(factor, rest.y),
+            fixed::scale_component(factor, rest.z)};
+}
+
+// Follows the way from an outside start until it meets the shape. Sphere tracing (Hart 1996) would go on by the distance, which
+// near a grazing surface takes any number of steps; the plane through the nearest surface point has the whole convex shape
+// behind it, so that the way is free up to there. On the distance along the way, a convex function, this is Newton's
+// method: from outside it never passes the root, and it doubles the digits with each step (at a tangent, the distance falls
+// to a quarter). Some 25 steps reach the tolerance from anywhere.
+constexpr int greatest_trace_steps = 64;
+
+template <lks_shape_kind kind>
+bool find_contact(const ContactFrame& frame, const Way& way, Contact& contact) {
+    SurfacePoint nearest = nearest_surface<kind>(frame.shape, way.start, frame.margin);
+    const std::int64_t start_distance = nearest.distance;
+    fixed::Vec3 rest = way.end - way.start;
+    std::int64_t closing = -fixed::dot(nearest.normal, rest);
+    for (int step = 0; step < greatest_trace_steps; ++step) {
+        if (closing <= nearest.distance) {
+            return false;  // never gets behind the plane
+        }
+        if (nearest.distance <= contact_tolerance) {
+            break;
+        }
+        rest = rest - advance(rest, nearest.distance, closing);
+        nearest = nearest_surface<kind>(frame.shape, way.end - rest, frame.margin);
+        closing = -fixed::dot(nearest.normal, rest);
+    }
+    contact.normal = nearest.normal;
+    contact.depth = closing - nearest.distance;
+    contact.old_depth = std::min(contact.depth, std::max<std::int64_t>(-start_distance, 0));
+    return true;
+}
+
+bool find_plane_contact(const ContactFrame& frame, const Way& way, Contact& contact) {
+    const std::int64_t height = saturating_subtract(way.end.y, frame.margin);
+    if (height >= 0) {
+        return false;
+    }
+    const std::int64_t start_height = saturating_subtract(way.start.y, frame.margin);
+    contact.normal = {0, direction_one, 0};
+    contact.depth = saturating_subtract(0, height);
+    contact.old_depth = std::min(contact.depth, std::max<std::int64_t>(saturating_subtract(0, start_height), 0));
+    return true;
+}
+
+std::int64_t times_friction(std::uint32_t coefficient, std::int64_t depth) {
+    const fixed::UInt128 product = fixed::multiply_unsigned(coefficient, static_cast<std::uint64_t>(depth));
+    return saturate(fixed::saturate_to_uint64(fixed::shift_right_rounded(product, friction_fraction_bits)));
+}
+
+// Coulomb's law on positions. The normal impulse of the substep has moved the particle by the new depth, so that friction may
+// move it by up to the static coefficient times that against the sliding of this substep: if that does for all of it the
+// particle sticks, else the dynamic coefficient counts. Returns by how much it slides less.
+fixed::Vec3 friction(const ContactFrame& frame, const Way& way, const Contact& contact) {
+    const std::int64_t new_depth = contact.depth - contact.old_depth;
+    if (frame.static_friction == 0 || new_depth == 0) {
+        return {0, 0, 0};
+    }
+    const fixed::Vec3 motion = saturating_subtract(way.end, way.start) + fixed::scale(contact.normal, new_depth);
+    const fixed::Vec3 sliding = motion - fixed::scale(contact.normal, fixed::dot(contact.normal, motion));
+    fixed::NormalisedVector slide{};
+    if (!fixed::normalise(sliding, slide)) {
+        return {0, 0, 0};
+    }
+    if (slide.length <= times_friction(frame.static_friction, new_depth)) {
+        return sliding;
+    }
+    const std::int64_t loss = std::min(times_friction(frame.dynamic_friction, new_depth), slide.length);
+    return fixed::scale(slide.direction, loss);
+}
+
+std::int64_t moved(std::int64_t position, std::int64_t by) {
+    return std::clamp(fixed::saturating_add(position, by), -coordinate_limit, coordinate_limit);
+}
+
+void apply(const ContactFrame& frame, const Way& way, const Contact& contact, const ParticleArrays& particles,
+           std::uint32_t i) {
+    const fixed::Vec3 push = fixed::scale(contact.normal, contact.depth) - friction(frame, way, contact);
+    const fixed::Vec3 correction = fixed::rotate(frame.end_rotation, push);
+    particles.x[i] = moved(particles.x[i], correction.x);
+    particles.y[i] = moved(particles.y[i], correction.y);
+    particles.z[i] = moved(particles.z[i], correction.z);
+    if (contact.old_depth > 0) {
+        const fixed::Vec3 recovery =
+            fixed::rotate(frame.end_rotation, fixed::scale(contact.normal, contact.old_depth));
+        particles.start_x[i] = fixed::saturating_add(particles.start_x[i], recovery.x);
+        particles.start_y[i] = fixed::saturating_add(particles.start_y[i], recovery.y);
+        particles.start_z[i] = fixed::saturating_add(particles.start_z[i], recovery.z);
+    }
+}
+
+// Most particles leave here: the bounding box of the way against the box of the frame, in object space.
+template <bool rotating>
+bool misses_box(const ContactFrame& frame, const fixed::Vec3& position, const fixed::Vec3& start) {
+    fixed::Vec3 low = {std::min(position.x, start.x), std::min(position.y, start.y), std::min(position.z, start.z)};
+    fixed::Vec3 high = {std::max(position.x, start.x), std::max(position.y, start.y), std::max(position.z, start.z)};
+    if constexpr (rotating) {
+        const std::int64_t own = sum_of_magnitudes(saturating_subtract(high, low)) / 2 + 1;
+        low = saturating_subtract(low, {own, own, own});
+        high = saturating_add(high, {own, own, own});
+    }
+    return (low.x > frame.box_high.x) | (low.y > frame.box_high.y) | (low.z > frame.box_high.z) |
+           (high.x < frame.box_low.x) | (high.y < frame.box_low.y) | (high.z < frame.box_low.z);
+}
+
+template <lks_shape_kind kind, bool rotating>
+void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
+                   std::uint32_t count) {
+    const std::uint32_t last = first + count;
+    for (std::uint32_t i = first; i < last; ++i) {
+        const fixed::Vec3 position = {particles.x[i], particles.y[i], particles.z[i]};
+        const fixed::Vec3 start = {particles.start_x[i], particles.start_y[i], particles.start_z[i]};
+        if ((!rotating || frame.has_box) && misses_box<rotating>(frame, position, start)) {
+            continue;
+        }
+        Way way{};
+        if (!find_way(frame, position, start, way)) {
+            continue;
+        }
+        // The distance changes by no more than the way is long.
+        const std::int64_t length_bound = sum_of_magnitudes(way.end - way.start);
+        if (is_beyond<kind>(frame.shape, way.end, frame.margin, length_bound)) {
+            continue;
+        }
+        Contact contact{};
+        if (find_contact<kind>(frame, way, contact)) {
+            apply(frame, way, contact, particles, i);
+        }
+    }
+}
+
+template <lks_shape_kind kind>
+void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
+                   std::uint32_t count) {
+    if (frame.rotating) {
+        resolve_solid<kind, true>(frame, particles, first, count);
+    } else {
+        resolve_solid<kind, false>(frame, particles, first, count);
+    }
+}
+
+// A plane is met only by what is below it in the end. Heights on 24 fraction bits decide for most.
+void resolve_plane(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
+                   std::uint32_t count) {
+    const fixed::Matrix3& r = frame.end_rotation;
+    const fixed::Vec3& c = frame.end_centre;
+    const std::int64_t a = r.m[0][1], b = r.m[1][1], d = r.m[2][1];
+    // Q54: each difference is right to one unit of 2^-24, times components that sum to less than 2.
+    const std::int64_t certainly_above = (frame.margin >> 2) + (std::int64_t{2} << direction_fraction_bits);
+    const std::uint32_t last = first + count;
+    for (std::uint32_t i = first; i < last; ++i) {
+        const std::int64_t height = a * ((particles.x[i] >> 32) - (c.x >> 32)) +
+                                    b * ((particles.y[i] >> 32) - (c.y >> 32)) +
+                                    d * ((particles.z[i] >> 32) - (c.z >> 32));
+        if (height >= certainly_above) {
+            continue;
+        }
+        const fixed::Vec3 start = {particles.start_x[i], particles.start_y[i], particles.start_z[i]};
+        Way way{};
+        way.end = plane_local(r, {particles.x[i], particles.y[i], particles.z[i]}, c);
+        way.start = plane_local(frame.start_rotation, start, frame.start_centre);
+        Contact contact{};
+        if (find_plane_contact(frame, way, contact)) {
+            apply(frame, way, contact, particles, i);
+        }
+    }
+}
+
+}  // namespace
+
+void resolve_contacts(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
+                      std::uint32_t count) {
+    if (!frame.reachable) {
+        return;
+    }
+    switch (frame.shape.kind) {
+    case LKS_SHAPE_PLANE:
+        return resolve_plane(frame, particles, first, count);
+    case LKS_SHAPE_SPHERE:
+        return resolve_solid<LKS_SHAPE_SPHERE>(frame, particles, first, count);
+    case LKS_SHAPE_CAPSULE:
+        return resolve_solid<LKS_SHAPE_CAPSULE>(frame, particles, first, count);
+    default:
+        return resolve_solid<LKS_SHAPE_BOX>(frame, particles, first, count);
+    }
+}
+
+}  // namespace lks

@@ -1,0 +1,152 @@
+#include "solver/coefficients.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace lks {
+namespace {
+
+using fixed::Scaled;
+
+struct FamilyTerms {
+    Scaled one_plus_gamma;
+    Scaled gamma;
+    Scaled softness; // α̃/(1+γ)
+};
+
+FamilyTerms family_terms(const Family& family, const StepRate& rate) {
+    const Scaled inverse_h = rate.inverse_h();
+    FamilyTerms terms;
+    terms.gamma = family.compliance * family.damping * inverse_h;
+    terms.one_plus_gamma = Scaled::from_u64(1) + terms.gamma;
+    terms.softness = family.compliance * inverse_h * inverse_h / terms.one_plus_gamma;
+    return terms;
+}
+
+std::uint32_t to_unit(const Scaled& value, int extra_bits = 0) {
+    const std::uint64_t raw = value.to_fixed(unit_fraction_bits + extra_bits);
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(raw, unit_one));
+}
+
+Scaled inverse_mass(const lks_asset& asset, const PinnedParticles& pinned, std::uint32_t particle) {
+    return pinned.contains(particle) ? Scaled{} : asset.inverse_masses[particle];
+}
+
+// The largest s that any pinning can give to this constraint: the other end pinned.
+Scaled largest_share(const Scaled& w_a, const Scaled& w_b, const Scaled& softness) {
+    const Scaled& w = w_a < w_b ? w_b : w_a;
+    return w / (w + softness);
+}
+
+} // namespace
+
+bool PinnedParticles::contains(std::uint32_t particle) const {
+    return count != 0 && std::binary_search(particles, particles + count, particle);
+}
+
+bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
+    const std::size_t count = asset.constraints.size();
+    if (!shares_a.resize(count) || !shares_b.resize(count) || !batches.resize(asset.batches.size())) {
+        return false;
+    }
+    bool any_soft = false;
+    FamilyTerms terms[family_count];
+    for (std::uint32_t f = 0; f < family_count; ++f) {
+        const Family& family = asset.families[f];
+        terms[f] = family_terms(family, rate);
+        families[f].soft = family.enabled && !family.compliance.is_zero();
+        families[f].error_share = to_unit(Scaled::from_u64(1) / terms[f].one_plus_gamma);
+        families[f].damping_share = to_unit(terms[f].gamma / terms[f].one_plus_gamma);
+        any_soft = any_soft || families[f].soft;
+    }
+    // In the first iteration of a substep Λ is zero, so r plays no part.
+    if (rate.iterations > 1 && any_soft && !relaxations.resize(count)) {
+        return false;
+    }
+    const PinnedParticles none;
+    for (std::uint32_t b = 0; b < asset.batches.size(); ++b) {
+        const Batch& batch = asset.batches[b];
+        Scaled largest{};
+        for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
+            const Constraint& constraint = asset.constraints[i];
+            const Scaled share =
+                largest_share(asset.inverse_masses[constraint.a], asset.inverse_masses[constraint.b],
+                              terms[batch.family].softness);
+            largest = largest < share ? share : largest;
+        }
+        // s ≤ 2^-exponent; beyond 40 a correction would be under one coordinate unit for any length.
+        const std::int32_t exponent = largest.is_zero() ? 0 : -largest.log2_floor() - 1;
+        batches[b].share_exponent = std::clamp(exponent, 0, 40);
+        batches[b].equal_shares = true;
+        for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
+            update_constraint(asset, rate, none, i, b);
+            batches[b].equal_shares = batches[b].equal_shares && shares_a[i] == shares_b[i];
+        }
+        batches[b].uniform = batches[b].equal_shares;
+    }
+    return true;
+}
+
+bool Coefficients::copy(const Coefficients& other) {
+    if (!shares_a.resize(other.shares_a.size()) || !shares_b.resize(other.shares_b.size()) ||
+        !relaxations.resize(other.relaxations.size()) || !batches.resize(other.batches.size())) {
+        return false;
+    }
+    std::copy(std::begin(other.families), std::end(other.families), std::begin(families));
+    std::copy(other.shares_a.begin(), other.shares_a.end(), shares_a.begin());
+    std::copy(other.shares_b.begin(), other.shares_b.end(), shares_b.begin());
+    std::copy(other.relaxations.begin(), other.relaxations.end(), relaxations.begin());
+    std::copy(other.batches.begin(), other.batches.end(), batches.begin());
+    return true;
+}
+
+void Coefficients::update_particle(const lks_asset& asset, const StepRate& rate,
+                                   const PinnedParticles& pinned, std::uint32_t particle) {
+    const std::uint32_t first = asset.incident_offsets[particle];
+    const std::uint32_t last = asset.incident_offsets[particle + 1];
+    std::uint32_t batch = 0;
+    for (std::uint32_t i = first; i < last; ++i) {
+        const std::uint32_t constraint = asset.incident_constraints[i]; // ascending, like the batches
+        while (constraint >= asset.batches[batch].first + asset.batches[batch].count) {
+            ++batch;
+        }
+        update_constraint(asset, rate, pinned, constraint, batch);
+        // Never set back to true: two multiplications too many are cheaper than a look at the whole batch.
+        batches[batch].equal_shares =
+            batches[batch].equal_shares && shares_a[constraint] == shares_b[constraint];
+    }
+}
+
+void Coefficients::update_constraint(const lks_asset& asset, const StepRate& rate,
+                                     const PinnedParticles& pinned, std::uint32_t constraint,
+                                     std::uint32_t batch) {
+    const Constraint& ends = asset.constraints[constraint];
+    const std::uint32_t family = asset.batches[batch].family;
+    const Scaled w_a = inverse_mass(asset, pinned, ends.a);
+    const Scaled w_b = inverse_mass(asset, pinned, ends.b);
+    const FamilyTerms terms = family_terms(asset.families[family], rate);
+    const Scaled effective = w_a + w_b + terms.softness;
+    const std::int32_t exponent = batches[batch].share_exponent;
+    if (w_a.is_zero() && w_b.is_zero()) {
+        shares_a[constraint] = 0;
+        shares_b[constraint] = 0;
+    } else {
+        shares_a[constraint] = to_unit(w_a / effective, exponent);
+        shares_b[constraint] = to_unit(w_b / effective, exponent);
+    }
+    if (!relaxations.empty()) {
+        relaxations[constraint] = effective.is_zero() ? 0 : to_unit(terms.softness / effective);
+    }
+}
+
+fixed::Scaled effective_inverse_mass(const lks_asset& asset, const StepRate& rate,
+                                     const PinnedParticles& pinned, std::uint32_t constraint) {
+    const Constraint& ends = asset.constraints[constraint];
+    const Batch* batch = std::upper_bound(asset.batches.begin(), asset.batches.end(), constraint,
+                                          [](std::uint32_t i, const Batch& b) { return i < b.first; });
+    const std::uint32_t family = (batch - 1)->family;
+    return inverse_mass(asset, pinned, ends.a) + inverse_mass(asset, pinned, ends.b) +
+           family_terms(asset.families[family], rate).softness;
+}
+
+} // namespace lks

@@ -1,0 +1,71 @@
+// The coefficients of distance constraints for one asset at one substep length: XPBD eq. 26 with everything
+// in [0, 1].
+//
+// With W = w_a + w_b, α̃ = α/h², γ = αβ/h and D = W + α̃/(1+γ), the multiplier is carried as a length Λ = D·λ:
+//
+//     ΔΛ  = −c·C − r·Λ − γ'·n·(Δx_a − Δx_b)        c = 1/(1+γ)   r = α̃/((1+γ)D)   γ' = γ/(1+γ)
+//     Δx_a = s_a·n·ΔΛ,  Δx_b = −s_b·n·ΔΛ            s = w/D
+//
+// No coefficient can overflow for any mass ratio, compliance or damping. Soft constraints make s tiny, so a
+// batch keeps its s with a common exponent.
+#pragma once
+
+#include <cstdint>
+
+#include "asset/asset.h"
+#include "solver/step_rate.h"
+
+namespace lks {
+
+struct FamilyCoefficients {
+    std::uint32_t error_share = unit_one; // c, Unit
+    std::uint32_t damping_share = 0;      // γ', Unit
+    bool soft = false;                    // compliance > 0
+};
+
+struct BatchCoefficients {
+    std::int32_t share_exponent = 0; // s = share · 2^-(31 + share_exponent)
+    // s_a = s_b throughout while nothing is pinned: decides how the correction is rounded, so it never
+    // changes.
+    bool uniform = true;
+    // s_a = s_b throughout now. Only saves work: both ends' products are then the same number.
+    bool equal_shares = true;
+};
+
+// Which particles have infinite mass although the asset gives them one: ascending indices.
+struct PinnedParticles {
+    const std::uint32_t* particles = nullptr;
+    std::size_t count = 0;
+
+    bool contains(std::uint32_t particle) const;
+};
+
+class Coefficients {
+public:
+    explicit Coefficients(const lks_allocator& allocator)
+        : shares_a(allocator), shares_b(allocator), relaxations(allocator), batches(allocator) {}
+
+    // All constraints, nothing pinned. False: no memory.
+    [[nodiscard]] bool build(const lks_asset& asset, const StepRate& rate);
+    // Becomes a copy of `other`. False: no memory, unchanged.
+    [[nodiscard]] bool copy(const Coefficients& other);
+    // Recomputes what depends on `particle`'s mass, after it was pinned or unpinned.
+    void update_particle(const lks_asset& asset, const StepRate& rate, const PinnedParticles& pinned,
+                         std::uint32_t particle);
+
+    FamilyCoefficients families[family_count];
+    Array<std::uint32_t> shares_a; // s_a mantissas, by constraint
+    Array<std::uint32_t> shares_b;
+    Array<std::uint32_t> relaxations; // r, Unit, by constraint; empty where one iteration makes it needless
+    Array<BatchCoefficients> batches;
+
+private:
+    void update_constraint(const lks_asset& asset, const StepRate& rate, const PinnedParticles& pinned,
+                           std::uint32_t constraint, std::uint32_t batch);
+};
+
+// D of one constraint in 1/kg, for the read-out of its force λ/h² = Λ/(D·h²).
+fixed::Scaled effective_inverse_mass(const lks_asset& asset, const StepRate& rate,
+                                     const PinnedParticles& pinned, std::uint32_t constraint);
+
+} // namespace lks

@@ -1,0 +1,36 @@
+// The distance constraint C = |x_a − x_b| − L (XPBD eq. 18 and 26): one pass over one batch.
+//
+// Positions are read as 32-bit differences, everything in between is 32 bits wide, and the correction is
+// added to the positions as a full 32×32→64 product (docs/numbers.md):
+//
+//     d = (x_a − x_b) >> (s + e)      rounded half up; s is the batch's, e > 0 only for edges too long for 32
+//     bits u = d·d,  y = 1/√u              31 bits f = c·(min(L·y, 2) − 1) − r·Λ·y − γ'·d·(Δx_a − Δx_b)·y²
+//     relative correction, clamped to [−1, 1] x_a += d·(s_a·f),  x_b −= d·(s_b·f)
+//
+// The clamp is part of the method: one projection may double an edge or close it, no more. An edge of length
+// zero has no direction and is left as it is. What one constraint does depends on its own two particles only.
+#pragma once
+
+#include <cstdint>
+
+#include "asset/asset.h"
+#include "solver/coefficients.h"
+
+namespace lks {
+
+struct DistanceArrays {
+    std::int64_t* x;
+    std::int64_t* y;
+    std::int64_t* z;
+    // At the start of the substep; read only where there is damping.
+    const std::int64_t* start_x;
+    const std::int64_t* start_y;
+    const std::int64_t* start_z;
+    // Λ by constraint in Coordinate format; null where nobody needs it.
+    std::int64_t* multipliers;
+};
+
+void project_distances(const lks_asset& asset, const Coefficients& coefficients, std::uint32_t batch,
+                       const DistanceArrays& arrays);
+
+} // namespace lks

@@ -1,0 +1,114 @@
+#include "solver/object.h"
+
+#include <algorithm>
+
+namespace lks {
+
+Object::Object(const lks_allocator& allocator, const lks_asset& asset, const Coefficients& shared)
+    : particles(allocator), multipliers(allocator), previous(allocator), pin_starts(allocator),
+      asset_(&asset), shared_(&shared), own_(allocator), pins_(allocator), pinned_particles_(allocator) {
+    retain_asset(asset_);
+}
+
+Object::~Object() {
+    release_asset(asset_);
+}
+
+bool Object::allocate(bool with_forces, bool need_multipliers, bool keep_previous) {
+    record_forces = with_forces;
+    const std::size_t n = count();
+    return particles.resize(6 * n) && (!need_multipliers || multipliers.resize(asset_->constraints.size())) &&
+           (!keep_previous || previous.resize(3 * n));
+}
+
+const Pin* Object::find_pin(std::uint32_t particle) const {
+    const auto* found = std::lower_bound(pinned_particles_.begin(), pinned_particles_.end(), particle);
+    if (found == pinned_particles_.end() || *found != particle) {
+        return nullptr;
+    }
+    return &pins_[static_cast<std::size_t>(found - pinned_particles_.begin())];
+}
+
+Pin* Object::find_pin(std::uint32_t particle) {
+    return const_cast<Pin*>(static_cast<const Object*>(this)->find_pin(particle));
+}
+
+bool Object::reserve_pins(std::size_t pin_count) {
+    if (pin_count == 0) {
+        return true;
+    }
+    // Room for twice as many, so that pinning one after the other does not allocate each time.
+    const std::size_t wanted = std::min<std::size_t>(std::max<std::size_t>(2 * pin_count, 4), count());
+    const std::size_t capacity = pin_count <= pins_.capacity() ? pins_.capacity() : wanted;
+    if (!pins_.reserve(capacity) || !pinned_particles_.reserve(capacity) || !pin_starts.reserve(capacity)) {
+        return false;
+    }
+    if (!owns_coefficients_) {
+        if (!own_.copy(*shared_)) {
+            return false;
+        }
+        owns_coefficients_ = true;
+    }
+    return true;
+}
+
+void Object::add_pin(const StepRate& rate, std::uint32_t particle, const Coordinates& target) {
+    const auto* place = std::lower_bound(pinned_particles_.begin(), pinned_particles_.end(), particle);
+    const auto index = static_cast<std::size_t>(place - pinned_particles_.begin());
+    pinned_particles_.insert_reserved(index, particle);
+    pins_.insert_reserved(index, Pin{particle, 0, target});
+    own_.update_particle(*asset_, rate, pinned(), particle);
+}
+
+void Object::remove_pin(const StepRate& rate, std::uint32_t particle) {
+    const auto* place = std::lower_bound(pinned_particles_.begin(), pinned_particles_.end(), particle);
+    const auto index = static_cast<std::size_t>(place - pinned_particles_.begin());
+    pinned_particles_.erase(index);
+    pins_.erase(index);
+    own_.update_particle(*asset_, rate, pinned(), particle);
+}
+
+void Object::follow_pins(const StepRate& rate) {
+    while (!pinned_particles_.empty()) {
+        const std::uint32_t particle = pinned_particles_[pinned_particles_.size() - 1];
+        pinned_particles_.erase(pinned_particles_.size() - 1);
+        own_.update_particle(*asset_, rate, pinned(), particle);
+    }
+    for (const Pin& pin : pins_) {
+        pinned_particles_.push_reserved(pin.particle);
+    }
+    for (const Pin& pin : pins_) {
+        own_.update_particle(*asset_, rate, pinned(), pin.particle);
+    }
+}
+
+std::uint64_t Object::shift_pin_targets(int axis, std::int64_t shift) {
+    std::uint64_t clamped = 0;
+    for (Pin& pin : pins_) {
+        std::int64_t& target = axis == 0 ? pin.target.x : axis == 1 ? pin.target.y : pin.target.z;
+        // Both within ±64 m, so the difference fits.
+        const std::int64_t shifted = target - shift;
+        target = std::clamp(shifted, -coordinate_limit, coordinate_limit);
+        clamped += static_cast<std::uint64_t>(target != shifted);
+    }
+    return clamped;
+}
+
+Bounds Object::bounds() const {
+    const auto extent = [this](int index, std::int64_t& low, std::int64_t& high) {
+        const std::int64_t* values = axis(index);
+        low = values[0];
+        high = values[0];
+        for (std::uint32_t i = 1; i < count(); ++i) {
+            low = std::min(low, values[i]);
+            high = std::max(high, values[i]);
+        }
+    };
+    Bounds result{};
+    extent(0, result.low.x, result.high.x);
+    extent(1, result.low.y, result.high.y);
+    extent(2, result.low.z, result.high.z);
+    return result;
+}
+
+} // namespace lks

@@ -1,0 +1,109 @@
+// One cloth or rope in a world: its particles, its pins, and where its local frame is.
+#pragma once
+
+#include <lockstitch/object.h>
+
+#include <cstdint>
+
+#include "asset/asset.h"
+#include "fixed/vector.h"
+#include "memory/array.h"
+#include "solver/coefficients.h"
+
+namespace lks {
+
+struct Pin {
+    std::uint32_t particle;
+    std::uint32_t reserved;
+    Coordinates target; // at the end of the next tick
+};
+
+// Least and greatest coordinates.
+struct Bounds {
+    fixed::Vec3 low;
+    fixed::Vec3 high;
+};
+
+class Object {
+public:
+    Object(const lks_allocator& allocator, const lks_asset& asset, const Coefficients& shared);
+    ~Object();
+    Object(const Object&) = delete;
+    Object& operator=(const Object&) = delete;
+
+    // All memory that the object needs while nothing is pinned. False: none left.
+    [[nodiscard]] bool allocate(bool record_forces, bool need_multipliers, bool keep_previous);
+
+    const lks_asset& asset() const { return *asset_; }
+    std::uint32_t count() const { return asset_->vertex_count(); }
+
+    std::int64_t* axis(int index) { return particles.data() + static_cast<std::size_t>(index) * count(); }
+    const std::int64_t* axis(int index) const {
+        return particles.data() + static_cast<std::size_t>(index) * count();
+    }
+    std::int64_t* start_axis(int index) { return axis(index + 3); }
+    const std::int64_t* start_axis(int index) const { return axis(index + 3); }
+
+    Coordinates position(std::uint32_t particle) const {
+        return {axis(0)[particle], axis(1)[particle], axis(2)[particle]};
+    }
+
+    // The coefficients in force: the shared ones until something is pinned.
+    const Coefficients& coefficients() const { return owns_coefficients_ ? own_ : *shared_; }
+
+    // Pins are kept in ascending order of particle.
+    const Pin* find_pin(std::uint32_t particle) const;
+    Pin* find_pin(std::uint32_t particle);
+    PinnedParticles pinned() const { return {pinned_particles_.data(), pinned_particles_.size()}; }
+    const Array<Pin>& pins() const { return pins_; }
+    // Memory for `pin_count` pins and for coefficients of its own. False: none left, nothing changed.
+    [[nodiscard]] bool reserve_pins(std::size_t pin_count);
+    // Within the reserved memory.
+    void add_pin(const StepRate& rate, std::uint32_t particle, const Coordinates& target);
+    void remove_pin(const StepRate& rate, std::uint32_t particle);
+    // Replaces all pins by `pin_count` others, within the reserved memory; `next` gives them in ascending
+    // order. Coefficients are recomputed only where the set of pinned particles changes.
+    template <typename Next>
+    void replace_pins(const StepRate& rate, std::size_t pin_count, const Next& next) {
+        bool same = pin_count == pins_.size();
+        pins_.clear();
+        for (std::size_t i = 0; i < pin_count; ++i) {
+            pins_.push_reserved(next());
+            same = same && pinned_particles_[i] == pins_[i].particle;
+        }
+        if (!same) {
+            follow_pins(rate);
+        }
+    }
+
+    // After the origin moved; a target that leaves the range by it is clamped. How many were.
+    std::uint64_t shift_pin_targets(int axis, std::int64_t shift);
+
+    Bounds bounds() const;
+
+    // State.
+    fixed::Vec3 origin{};            // World
+    std::int64_t gravity_factor = 0; // World
+    std::int64_t linear_damping = 0; // World, 1/s
+    bool record_forces = false;
+    Array<std::int64_t> particles;   // x, y, z, then the starts of x, y, z: six arrays of count(), Coordinate
+    Array<std::int64_t> multipliers; // Λ by constraint, Coordinate; state only where forces are recorded
+
+    // For views.
+    Array<std::int64_t> previous; // x, y, z at the tick before; empty where not wanted
+    // Of the tick that is running: where each pin started, by pin.
+    Array<Coordinates> pin_starts;
+
+private:
+    // After pins_ was replaced: brings the list of pinned particles and the coefficients up to date.
+    void follow_pins(const StepRate& rate);
+
+    const lks_asset* asset_;
+    const Coefficients* shared_;
+    Coefficients own_;
+    bool owns_coefficients_ = false;
+    Array<Pin> pins_;
+    Array<std::uint32_t> pinned_particles_; // the particles of pins_, for a quick search
+};
+
+} // namespace lks

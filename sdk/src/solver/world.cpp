@@ -1,0 +1,127 @@
+#include "solver/world.h"
+
+#include <algorithm>
+#include <cstring>
+
+using lks::Coefficients;
+using lks::KnownAsset;
+using lks::Object;
+using lks::Sentence;
+
+lks_world::lks_world(const lks_world_def& def)
+    : allocator(def.allocator), log(def.log), before_tick(def.before_tick),
+      rate(lks::make_step_rate(def.tick_rate_hz, def.substeps, def.iterations)),
+      max_ticks_per_advance(def.max_ticks_per_advance),
+      excess_time(static_cast<lks_excess_time>(def.excess_time)),
+      keep_previous(def.keep_previous_positions != 0), gravity{def.gravity.x, def.gravity.y, def.gravity.z},
+      objects(allocator), colliders(allocator), assets(allocator), candidates(allocator),
+      load_staging(allocator) {}
+
+lks_world::~lks_world() {
+    for (lks::ObjectSlot& slot : objects) {
+        destroy_object(slot.object);
+    }
+    for (const KnownAsset& known : assets) {
+        lks::destroy(allocator, known.coefficients);
+        lks::release_asset(known.asset);
+    }
+}
+
+lks_result lks_world::fail(lks_result result, const Sentence& sentence) const {
+    lks::report(&last_error, result, sentence);
+    if (log.write != nullptr) {
+        log.write(log.user, LKS_LOG_ERROR, last_error.message);
+    }
+    return result;
+}
+
+lks_result lks_world::fail_out_of_memory(const char* what) const {
+    return fail(LKS_ERROR_OUT_OF_MEMORY, Sentence() << "The allocator has no memory for " << what << ".");
+}
+
+Object* lks_world::find_object(lks_object_id id) const {
+    if (id.generation == 0 || id.index >= objects.size() || objects[id.index].generation != id.generation) {
+        return nullptr;
+    }
+    return objects[id.index].object;
+}
+
+Object* lks_world::require_object(lks_object_id id, lks_result& result) const {
+    Object* object = find_object(id);
+    result = LKS_OK;
+    if (object == nullptr) {
+        result =
+            fail(LKS_ERROR_STALE_ID, Sentence() << "There is no object with index " << id.index
+                                                << " and generation " << id.generation << " in this world.");
+    }
+    return object;
+}
+
+const lks::ColliderState* lks_world::find_collider(lks_collider_id id) const {
+    if (id.generation == 0 || id.index >= colliders.size() || !colliders[id.index].used ||
+        colliders[id.index].generation != id.generation) {
+        return nullptr;
+    }
+    return &colliders[id.index].collider;
+}
+
+lks::ColliderState* lks_world::find_collider(lks_collider_id id) {
+    return const_cast<lks::ColliderState*>(static_cast<const lks_world*>(this)->find_collider(id));
+}
+
+lks_result lks_world::stale_collider(lks_collider_id id) const {
+    return fail(LKS_ERROR_STALE_ID, Sentence() << "There is no collider with index " << id.index
+                                               << " and generation " << id.generation << " in this world.");
+}
+
+const KnownAsset* lks_world::find_asset(std::uint64_t fingerprint) const {
+    for (const KnownAsset& known : assets) {
+        if (known.asset->fingerprint == fingerprint) {
+            return &known;
+        }
+    }
+    return nullptr;
+}
+
+const KnownAsset* lks_world::know_asset(const lks_asset& asset) {
+    if (const KnownAsset* known = find_asset(asset.fingerprint)) {
+        return known;
+    }
+    if (assets.size() == assets.capacity() && !assets.reserve(std::max<std::size_t>(8, 2 * assets.size()))) {
+        return nullptr;
+    }
+    auto* coefficients = lks::create<Coefficients>(allocator, allocator);
+    if (coefficients == nullptr || !coefficients->build(asset, rate)) {
+        lks::destroy(allocator, coefficients);
+        return nullptr;
+    }
+    lks::retain_asset(&asset);
+    assets.push_reserved(KnownAsset{&asset, coefficients});
+    return &assets[assets.size() - 1];
+}
+
+Object* lks_world::make_object(const KnownAsset& known, bool record_forces) const {
+    auto* object = lks::create<Object>(allocator, allocator, *known.asset, *known.coefficients);
+    // Λ is carried from one iteration to the next where anything is soft; otherwise only for its read-out.
+    const bool carried = !known.coefficients->relaxations.empty();
+    if (object != nullptr && !object->allocate(record_forces, record_forces || carried, keep_previous)) {
+        destroy_object(object);
+        return nullptr;
+    }
+    return object;
+}
+
+void lks_world::destroy_object(Object* object) const {
+    lks::destroy(allocator, object);
+}
+
+namespace lks {
+
+void free_object_slot(lks_world& world, std::uint32_t index) {
+    ObjectSlot& slot = world.objects[index];
+    world.destroy_object(slot.object);
+    slot.object = nullptr;
+    slot.generation = slot.generation == UINT32_MAX ? 1 : slot.generation + 1;
+}
+
+} // namespace lks

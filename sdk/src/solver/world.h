@@ -1,0 +1,100 @@
+// The world behind the C API: settings, objects, colliders, known assets, the clock.
+#pragma once
+
+#include <lockstitch/collider.h>
+#include <lockstitch/object.h>
+#include <lockstitch/state.h>
+#include <lockstitch/world.h>
+
+#include <cstdint>
+
+#include "api/report.h"
+#include "collide/collider_motion.h"
+#include "memory/array.h"
+#include "solver/object.h"
+#include "solver/step_rate.h"
+
+namespace lks {
+
+// A place for an object or a collider. The generation is that of the present or the next occupant, and never
+// 0.
+struct ObjectSlot {
+    Object* object; // null: free
+    std::uint32_t generation;
+};
+
+struct ColliderSlot {
+    ColliderState collider;
+    std::uint32_t generation;
+    bool used;
+};
+
+// An asset that the world knows, with its coefficients at the world's substep length.
+struct KnownAsset {
+    const lks_asset* asset;
+    Coefficients* coefficients;
+};
+
+// Real time that is due, in units of 1/(tick rate · 10⁹) s. No part of the state.
+struct Clock {
+    std::int64_t due = 0;
+};
+
+} // namespace lks
+
+// The opaque type of the C API.
+struct lks_world {
+    explicit lks_world(const lks_world_def& def);
+    ~lks_world();
+    lks_world(const lks_world&) = delete;
+    lks_world& operator=(const lks_world&) = delete;
+
+    // Settings: never change.
+    lks_allocator allocator;
+    lks_log log;
+    lks_tick_hook before_tick;
+    lks::StepRate rate;
+    std::uint32_t max_ticks_per_advance;
+    lks_excess_time excess_time;
+    bool keep_previous;
+
+    // State.
+    std::uint64_t tick = 0;
+    lks::fixed::Vec3 gravity{}; // World, m/s²
+    lks::Array<lks::ObjectSlot> objects;
+    lks::Array<lks::ColliderSlot> colliders;
+
+    // Derived, or none of the simulation's business.
+    lks::Array<lks::KnownAsset> assets;
+    lks::Array<std::uint32_t> candidates;  // scratch of a tick: colliders near the object at work
+    lks::Array<lks::Object*> load_staging; // scratch of a load: one a slot
+    lks::Clock clock;
+    lks_world_counters counters{};
+    bool running = false; // inside a tick's hook
+    mutable lks_error last_error{};
+
+    // Keeps the sentence and hands it to the log.
+    lks_result fail(lks_result result, const lks::Sentence& sentence) const;
+    lks_result fail_out_of_memory(const char* what) const;
+
+    lks::Object* find_object(lks_object_id id) const;
+    // As find_object, with the failure reported; *result says which.
+    lks::Object* require_object(lks_object_id id, lks_result& result) const;
+    lks::ColliderState* find_collider(lks_collider_id id);
+    const lks::ColliderState* find_collider(lks_collider_id id) const;
+    lks_result stale_collider(lks_collider_id id) const;
+
+    const lks::KnownAsset* find_asset(std::uint64_t fingerprint) const;
+    // The asset among the known ones, added if it is new. Null: no memory.
+    const lks::KnownAsset* know_asset(const lks_asset& asset);
+    // A new, empty object of a known asset. Null: no memory.
+    lks::Object* make_object(const lks::KnownAsset& known, bool record_forces) const;
+    void destroy_object(lks::Object* object) const;
+};
+
+namespace lks {
+
+// Frees the slot and makes its old id stale.
+void free_object_slot(lks_world& world, std::uint32_t index);
+
+} // namespace lks

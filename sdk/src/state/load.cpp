@@ -1,0 +1,332 @@
+// Loading an image in two passes over the same bytes: the first checks every value and makes the objects that
+// the world has not got, the second cannot fail.
+#include <algorithm>
+
+#include "api/checks.h"
+#include "api/collider_checks.h"
+#include "state/bytes.h"
+#include "state/hash.h"
+#include "state/image.h"
+
+namespace lks {
+namespace {
+
+fixed::Vec3 read_vector(ByteReader& in) {
+    fixed::Vec3 value{};
+    value.x = in.i64();
+    value.y = in.i64();
+    value.z = in.i64();
+    return value;
+}
+
+fixed::Rotation read_rotation(ByteReader& in) {
+    fixed::Rotation value{};
+    value.x = static_cast<std::int32_t>(in.u32());
+    value.y = static_cast<std::int32_t>(in.u32());
+    value.z = static_cast<std::int32_t>(in.u32());
+    value.w = static_cast<std::int32_t>(in.u32());
+    return value;
+}
+
+ImageHeader read_header(ByteReader& in) {
+    ImageHeader header{};
+    header.magic = in.u64();
+    header.version = in.u32();
+    header.solver_version = in.u32();
+    header.size = in.u64();
+    header.checksum = in.u64();
+    header.ticks_per_second = in.u32();
+    header.substeps = in.u32();
+    header.iterations = in.u32();
+    header.reserved = in.u32();
+    header.object_slots = in.u32();
+    header.collider_slots = in.u32();
+    header.tick = in.u64();
+    header.gravity = read_vector(in);
+    return header;
+}
+
+ImageObject read_object(ByteReader& in) {
+    ImageObject object{};
+    object.fingerprint = in.u64();
+    object.vertex_count = in.u32();
+    object.record_forces = in.u32();
+    object.pin_count = in.u32();
+    object.constraint_count = in.u32();
+    object.gravity_factor = in.i64();
+    object.linear_damping = in.i64();
+    object.origin = read_vector(in);
+    return object;
+}
+
+Pin read_pin(ByteReader& in) {
+    const std::uint64_t particle = in.u64();
+    const fixed::Vec3 target = read_vector(in);
+    const std::uint32_t narrowed = particle > UINT32_MAX ? UINT32_MAX : static_cast<std::uint32_t>(particle);
+    return Pin{narrowed, 0, {target.x, target.y, target.z}};
+}
+
+ColliderState read_collider(ByteReader& in) {
+    ColliderState collider{};
+    const std::uint64_t kind = in.u64();
+    collider.shape.kind = kind > UINT32_MAX ? UINT32_MAX : static_cast<std::uint32_t>(kind);
+    collider.shape.radius = in.i64();
+    collider.shape.half_length = in.i64();
+    collider.shape.half_extents = read_vector(in);
+    collider.static_friction = in.i64();
+    collider.dynamic_friction = in.i64();
+    collider.position = read_vector(in);
+    collider.target_position = read_vector(in);
+    collider.rotation = read_rotation(in);
+    collider.target_rotation = read_rotation(in);
+    return collider;
+}
+
+bool within(const fixed::Vec3& value, std::int64_t limit) {
+    return lks::within(from_vec3(value), limit);
+}
+
+lks_result corrupt(const lks_world& world, const Sentence& what) {
+    return world.fail(LKS_ERROR_CORRUPT_IMAGE, what);
+}
+
+lks_result foreign(const lks_world& world, const char* what, std::uint64_t image, std::uint64_t own) {
+    return world.fail(LKS_ERROR_FOREIGN_IMAGE, Sentence() << "The image's " << what << " is " << image
+                                                          << ", this world's is " << own << ".");
+}
+
+// Everything that can be said of an image from its first bytes.
+lks_result check_header(const lks_world& world, const ImageHeader& header, const unsigned char* memory,
+                        std::size_t size) {
+    if (size < image_header_size) {
+        return corrupt(world, Sentence() << "The image has " << static_cast<std::uint64_t>(size)
+                                         << " bytes, fewer than its header.");
+    }
+    if (header.magic != image_magic) {
+        return corrupt(
+            world, (Sentence() << "This is no image of a world: it begins with ").hexadecimal(header.magic)
+                       << ".");
+    }
+    if (header.version != image_version) {
+        return foreign(world, "format version", header.version, image_version);
+    }
+    if (header.solver_version != LKS_SOLVER_VERSION) {
+        return foreign(world, "solver version", header.solver_version, LKS_SOLVER_VERSION);
+    }
+    if (header.size != size) {
+        return corrupt(world, Sentence() << "The image says that it has " << header.size << " bytes, but "
+                                         << static_cast<std::uint64_t>(size) << " were given.");
+    }
+    Hash checksum;
+    checksum.add_bytes(memory + image_checked_from, size - image_checked_from);
+    if (const std::uint64_t found = checksum.finish(); found != header.checksum) {
+        return corrupt(world,
+                       ((Sentence() << "The image's checksum is ").hexadecimal(found) << " instead of ")
+                               .hexadecimal(header.checksum)
+                           << ".");
+    }
+    if (header.ticks_per_second != world.rate.ticks_per_second) {
+        return foreign(world, "tick rate", header.ticks_per_second, world.rate.ticks_per_second);
+    }
+    if (header.substeps != world.rate.substeps) {
+        return foreign(world, "number of substeps", header.substeps, world.rate.substeps);
+    }
+    if (header.iterations != world.rate.iterations) {
+        return foreign(world, "number of iterations", header.iterations, world.rate.iterations);
+    }
+    if (header.reserved != 0 || header.object_slots > LKS_MAX_OBJECTS ||
+        header.collider_slots > LKS_MAX_COLLIDERS || !within(header.gravity, LKS_FIXED(1000))) {
+        return corrupt(world, Sentence() << "A value in the image's header is out of range.");
+    }
+    return LKS_OK;
+}
+
+class Loader {
+public:
+    Loader(lks_world& world, const ImageHeader& header) : world_(world), header_(header) {}
+
+    // Checks everything, and stages one object for each used slot: the one that is there if it fits, else a
+    // new one.
+    lks_result check(ByteReader in) {
+        if (!reserve()) {
+            return world_.fail_out_of_memory("an image's objects");
+        }
+        world_.load_staging.clear();
+        for (std::uint32_t i = 0; i < header_.object_slots; ++i) {
+            world_.load_staging.push_reserved(nullptr);
+            if (const lks_result result = check_object_slot(in, i); result != LKS_OK) {
+                return result;
+            }
+        }
+        for (std::uint32_t i = 0; i < header_.collider_slots; ++i) {
+            const std::uint32_t generation = in.u32();
+            const std::uint32_t used = in.u32();
+            bool good = generation != 0 && used <= 1;
+            if (good && used == 1) {
+                good = collider_is_valid(read_collider(in));
+            }
+            if (!good) {
+                return corrupt(world_,
+                               Sentence() << "A value of collider " << i << " in the image is out of range.");
+            }
+        }
+        if (!in.complete() || in.left() != 0) {
+            return corrupt(world_, Sentence() << "The image's parts do not add up to its size.");
+        }
+        return LKS_OK;
+    }
+
+    // Gives up what check() made.
+    void abandon() {
+        for (std::size_t i = 0; i < world_.load_staging.size(); ++i) {
+            if (!is_present(i, world_.load_staging[i])) {
+                world_.destroy_object(world_.load_staging[i]);
+            }
+        }
+        world_.load_staging.clear();
+    }
+
+    void commit(ByteReader in) {
+        world_.tick = header_.tick;
+        world_.gravity = header_.gravity;
+        commit_objects(in);
+        world_.colliders.clear();
+        for (std::uint32_t i = 0; i < header_.collider_slots; ++i) {
+            ColliderSlot slot{};
+            slot.generation = in.u32();
+            slot.used = in.u32() != 0;
+            if (slot.used) {
+                slot.collider = read_collider(in);
+            }
+            world_.colliders.push_reserved(slot);
+        }
+    }
+
+private:
+    bool reserve() {
+        return world_.load_staging.reserve(header_.object_slots) &&
+               world_.objects.reserve(header_.object_slots) &&
+               world_.colliders.reserve(header_.collider_slots) &&
+               world_.candidates.reserve(header_.collider_slots);
+    }
+
+    bool is_present(std::size_t slot, const Object* object) const {
+        return slot < world_.objects.size() && world_.objects[slot].object == object;
+    }
+
+    lks_result check_object_slot(ByteReader& in, std::uint32_t slot) {
+        const std::uint32_t generation = in.u32();
+        const std::uint32_t used = in.u32();
+        if (generation == 0 || used > 1) {
+            return corrupt(world_, Sentence() << "Object slot " << slot << " of the image is out of range.");
+        }
+        if (used == 0) {
+            return LKS_OK;
+        }
+        const ImageObject image = read_object(in);
+        const KnownAsset* known = world_.find_asset(image.fingerprint);
+        if (known == nullptr) {
+            return in.complete()
+                       ? world_.fail(LKS_ERROR_FOREIGN_IMAGE,
+                                     (Sentence() << "Object " << slot << " of the image needs the asset ")
+                                             .hexadecimal(image.fingerprint)
+                                         << ", which this world does not know.")
+                       : corrupt(world_, Sentence() << "The image ends inside object " << slot << ".");
+        }
+        if (!object_is_valid(image, *known->asset) || !pins_are_valid(in, image) ||
+            !in.skip_i64(std::size_t{6} * image.vertex_count + image.constraint_count)) {
+            return corrupt(world_, Sentence()
+                                       << "A value of object " << slot << " in the image is out of range.");
+        }
+        Object* object = stage(slot, *known, image);
+        if (object == nullptr || !object->reserve_pins(image.pin_count)) {
+            return world_.fail_out_of_memory("an image's objects");
+        }
+        return LKS_OK;
+    }
+
+    static bool object_is_valid(const ImageObject& image, const lks_asset& asset) {
+        return image.vertex_count == asset.vertex_count() && image.record_forces <= 1 &&
+               image.constraint_count == (image.record_forces != 0 ? asset.constraint_count() : 0) &&
+               image.pin_count <= image.vertex_count && lks::within(image.gravity_factor, LKS_FIXED(100)) &&
+               image.linear_damping >= 0 && image.linear_damping <= LKS_FIXED(1000) &&
+               within(image.origin, world_position_limit);
+    }
+
+    static bool pins_are_valid(ByteReader& in, const ImageObject& image) {
+        std::int64_t last = -1;
+        for (std::uint32_t i = 0; i < image.pin_count; ++i) {
+            const Pin pin = read_pin(in);
+            if (std::int64_t{pin.particle} <= last || pin.particle >= image.vertex_count ||
+                !within({pin.target.x, pin.target.y, pin.target.z}, coordinate_limit)) {
+                return false;
+            }
+            last = pin.particle;
+        }
+        return in.complete();
+    }
+
+    Object* stage(std::uint32_t slot, const KnownAsset& known, const ImageObject& image) {
+        Object* present = slot < world_.objects.size() ? world_.objects[slot].object : nullptr;
+        const bool fits = present != nullptr && &present->asset() == known.asset &&
+                          present->record_forces == (image.record_forces != 0);
+        Object* object = fits ? present : world_.make_object(known, image.record_forces != 0);
+        world_.load_staging[slot] = object;
+        return object;
+    }
+
+    void commit_objects(ByteReader& in) {
+        for (std::size_t i = 0; i < world_.objects.size(); ++i) {
+            const bool stays = i < header_.object_slots && world_.load_staging[i] == world_.objects[i].object;
+            if (!stays) {
+                world_.destroy_object(world_.objects[i].object);
+            }
+        }
+        world_.objects.clear();
+        for (std::uint32_t i = 0; i < header_.object_slots; ++i) {
+            const std::uint32_t generation = in.u32();
+            const bool used = in.u32() != 0;
+            world_.objects.push_reserved(ObjectSlot{world_.load_staging[i], generation});
+            if (used) {
+                commit_object(in, *world_.load_staging[i]);
+            }
+        }
+        world_.load_staging.clear();
+    }
+
+    void commit_object(ByteReader& in, Object& object) {
+        const ImageObject image = read_object(in);
+        object.gravity_factor = image.gravity_factor;
+        object.linear_damping = image.linear_damping;
+        object.origin = image.origin;
+        object.replace_pins(world_.rate, image.pin_count, [&in] { return read_pin(in); });
+        in.i64_array(object.particles.data(), object.particles.size());
+        if (object.record_forces) {
+            in.i64_array(object.multipliers.data(), object.multipliers.size());
+        }
+        // There is no tick before for the view to start from.
+        std::copy_n(object.particles.data(), object.previous.size(), object.previous.data());
+    }
+
+    lks_world& world_;
+    const ImageHeader& header_;
+};
+
+} // namespace
+
+lks_result load_image(lks_world& world, const unsigned char* memory, std::size_t size) {
+    ByteReader in(memory, size);
+    const ImageHeader header = read_header(in);
+    if (const lks_result result = check_header(world, header, memory, size); result != LKS_OK) {
+        return result;
+    }
+    Loader loader(world, header);
+    if (const lks_result result = loader.check(in); result != LKS_OK) {
+        loader.abandon();
+        return result;
+    }
+    loader.commit(in);
+    return LKS_OK;
+}
+
+} // namespace lks

@@ -1,0 +1,105 @@
+#include "state/bytes.h"
+#include "state/hash.h"
+#include "state/image.h"
+
+namespace lks {
+namespace {
+
+void write_vector(ByteWriter& out, const fixed::Vec3& value) {
+    out.i64(value.x);
+    out.i64(value.y);
+    out.i64(value.z);
+}
+
+void write_rotation(ByteWriter& out, const fixed::Rotation& value) {
+    for (const std::int32_t part : {value.x, value.y, value.z, value.w}) {
+        out.u32(static_cast<std::uint32_t>(part));
+    }
+}
+
+std::size_t object_size(const Object& object) {
+    return image_object_size + object.pins().size() * image_pin_size + object.particles.bytes() +
+           (object.record_forces ? object.multipliers.bytes() : 0);
+}
+
+void write_object(ByteWriter& out, const Object& object) {
+    out.u64(object.asset().fingerprint);
+    out.u32(object.count());
+    out.u32(object.record_forces ? 1 : 0);
+    out.u32(static_cast<std::uint32_t>(object.pins().size()));
+    out.u32(object.record_forces ? static_cast<std::uint32_t>(object.multipliers.size()) : 0);
+    out.i64(object.gravity_factor);
+    out.i64(object.linear_damping);
+    write_vector(out, object.origin);
+    for (const Pin& pin : object.pins()) {
+        out.u64(pin.particle);
+        write_vector(out, {pin.target.x, pin.target.y, pin.target.z});
+    }
+    out.i64_array(object.particles.data(), object.particles.size());
+    if (object.record_forces) {
+        out.i64_array(object.multipliers.data(), object.multipliers.size());
+    }
+}
+
+void write_collider(ByteWriter& out, const ColliderState& collider) {
+    out.u64(collider.shape.kind);
+    out.i64(collider.shape.radius);
+    out.i64(collider.shape.half_length);
+    write_vector(out, collider.shape.half_extents);
+    out.i64(collider.static_friction);
+    out.i64(collider.dynamic_friction);
+    write_vector(out, collider.position);
+    write_vector(out, collider.target_position);
+    write_rotation(out, collider.rotation);
+    write_rotation(out, collider.target_rotation);
+}
+
+} // namespace
+
+std::size_t image_size(const lks_world& world) {
+    std::size_t size = image_header_size + (world.objects.size() + world.colliders.size()) * image_slot_size;
+    for (const ObjectSlot& slot : world.objects) {
+        size += slot.object != nullptr ? object_size(*slot.object) : 0;
+    }
+    for (const ColliderSlot& slot : world.colliders) {
+        size += slot.used ? image_collider_size : 0;
+    }
+    return size;
+}
+
+void write_image(const lks_world& world, unsigned char* memory) {
+    const std::size_t size = image_size(world);
+    ByteWriter out(memory + image_checked_from);
+    out.u32(world.rate.ticks_per_second);
+    out.u32(world.rate.substeps);
+    out.u32(world.rate.iterations);
+    out.u32(0);
+    out.u32(static_cast<std::uint32_t>(world.objects.size()));
+    out.u32(static_cast<std::uint32_t>(world.colliders.size()));
+    out.u64(world.tick);
+    write_vector(out, world.gravity);
+    for (const ObjectSlot& slot : world.objects) {
+        out.u32(slot.generation);
+        out.u32(slot.object != nullptr ? 1 : 0);
+        if (slot.object != nullptr) {
+            write_object(out, *slot.object);
+        }
+    }
+    for (const ColliderSlot& slot : world.colliders) {
+        out.u32(slot.generation);
+        out.u32(slot.used ? 1 : 0);
+        if (slot.used) {
+            write_collider(out, slot.collider);
+        }
+    }
+    Hash checksum;
+    checksum.add_bytes(memory + image_checked_from, size - image_checked_from);
+    ByteWriter front(memory);
+    front.u64(image_magic);
+    front.u32(image_version);
+    front.u32(LKS_SOLVER_VERSION);
+    front.u64(size);
+    front.u64(checksum.finish());
+}
+
+} // namespace lks

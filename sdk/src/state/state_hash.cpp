@@ -1,0 +1,87 @@
+#include "state/state_hash.h"
+
+#include "state/hash.h"
+
+namespace lks {
+namespace {
+
+void add_vector(Hash& hash, const fixed::Vec3& value) {
+    hash.add_i64(value.x);
+    hash.add_i64(value.y);
+    hash.add_i64(value.z);
+}
+
+void add_rotation(Hash& hash, const fixed::Rotation& value) {
+    for (const std::int32_t part : {value.x, value.y, value.z, value.w}) {
+        hash.add_u32(static_cast<std::uint32_t>(part));
+    }
+}
+
+// A collider's motion within the next tick is local, its place is not.
+void add_collider(Hash& hash, const ColliderState& collider, bool local) {
+    hash.add_u32(collider.shape.kind);
+    hash.add_i64(collider.shape.radius);
+    hash.add_i64(collider.shape.half_length);
+    add_vector(hash, collider.shape.half_extents);
+    hash.add_i64(collider.static_friction);
+    hash.add_i64(collider.dynamic_friction);
+    add_rotation(hash, collider.rotation);
+    add_rotation(hash, collider.target_rotation);
+    add_vector(hash, {collider.target_position.x - collider.position.x,
+                      collider.target_position.y - collider.position.y,
+                      collider.target_position.z - collider.position.z});
+    if (!local) {
+        add_vector(hash, collider.position);
+    }
+}
+
+} // namespace
+
+std::uint64_t hash_object(const Object& object) {
+    Hash hash;
+    hash.add_u64(object.asset().fingerprint);
+    hash.add_i64(object.gravity_factor);
+    hash.add_i64(object.linear_damping);
+    hash.add_u32(object.record_forces ? 1 : 0);
+    hash.add_u32(static_cast<std::uint32_t>(object.pins().size()));
+    for (const Pin& pin : object.pins()) {
+        hash.add_u64(pin.particle);
+        add_vector(hash, {pin.target.x, pin.target.y, pin.target.z});
+    }
+    hash.add_i64_array(object.particles.data(), object.particles.size());
+    if (object.record_forces) {
+        hash.add_i64_array(object.multipliers.data(), object.multipliers.size());
+    }
+    return hash.finish();
+}
+
+std::uint64_t hash_world(const lks_world& world, bool local) {
+    Hash hash;
+    hash.add_u32(world.rate.ticks_per_second);
+    hash.add_u32(world.rate.substeps);
+    hash.add_u32(world.rate.iterations);
+    hash.add_u64(world.tick);
+    add_vector(hash, world.gravity);
+    hash.add_u32(static_cast<std::uint32_t>(world.objects.size()));
+    for (const ObjectSlot& slot : world.objects) {
+        hash.add_u32(slot.generation);
+        hash.add_u32(slot.object != nullptr ? 1 : 0);
+        if (slot.object != nullptr) {
+            hash.add_u64(hash_object(*slot.object));
+            if (!local) {
+                add_vector(hash, slot.object->origin);
+            }
+        }
+    }
+    hash.add_u32(static_cast<std::uint32_t>(world.colliders.size()));
+    for (const ColliderSlot& slot : world.colliders) {
+        hash.add_u32(slot.generation);
+        hash.add_u32(slot.used ? 1 : 0);
+        if (slot.used) {
+            add_collider(hash, slot.collider, local);
+        }
+    }
+    return hash.finish();
+}
+
+} // namespace lks
