@@ -65,6 +65,11 @@ LKS_API uint32_t lks_world_interpolation(const lks_world* world);
 /* Ticks since the world was created (part of the state); 0 for null. */
 LKS_API uint64_t lks_world_tick(const lks_world* world);
 
+/* The settings that the world was created with; 0 for null. */
+LKS_API uint32_t lks_world_tick_rate(const lks_world* world);
+LKS_API uint32_t lks_world_substeps(const lks_world* world);
+LKS_API uint32_t lks_world_iterations(const lks_world* world);
+
 LKS_API lks_result lks_world_set_gravity(lks_world* world, lks_vec3 gravity);
 LKS_API lks_result lks_world_gravity(const lks_world* world, lks_vec3* gravity);
 

@@ -1,6 +1,6 @@
 #include "api/authoring_text.h"
 
-#include "api/authoring_number.h"
+#include <bit>
 
 namespace lks {
 namespace {
@@ -64,12 +64,16 @@ Sentence& operator<<(Sentence& sentence, const Authored& number) {
     case NumberClass::not_a_number:
         return sentence << "NaN";
     case NumberClass::infinite:
-        return sentence << "infinite";
+        return sentence << (std::bit_cast<std::uint64_t>(number.value) >> 63 != 0 ? "-infinite" : "infinite");
     case NumberClass::finite:
         break;
     }
     SignedScaled exact;
     (void)decode_double(number.value, exact);
+    return sentence << exact;
+}
+
+Sentence& operator<<(Sentence& sentence, const SignedScaled& exact) {
     if (exact.magnitude.is_zero()) {
         return sentence << "0";
     }

@@ -1,6 +1,7 @@
 // Authored numbers in sentences.
 #pragma once
 
+#include "api/authoring_number.h"
 #include "api/report.h"
 
 namespace lks {
@@ -12,5 +13,7 @@ struct Authored {
 };
 
 Sentence& operator<<(Sentence& sentence, const Authored& number);
+// The same for what was computed from authored numbers.
+Sentence& operator<<(Sentence& sentence, const SignedScaled& number);
 
 } // namespace lks

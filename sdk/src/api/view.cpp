@@ -7,37 +7,25 @@
 #include <cmath>
 
 #include "api/checks.h"
+#include "api/view_units.h"
 #include "solver/wrapping.h"
 
 using namespace lks;
 
 namespace {
 
-constexpr double world_unit = 1.0 / 1099511627776.0;      // 2^-40
-constexpr double coordinate_unit = world_unit / 65536.0;  // 2^-56
-constexpr double interpolation_unit = 1.0 / 4294967296.0; // 2^-32
-
 struct Point {
     double x, y, z;
 };
-
-double share_of(std::uint32_t interpolation) {
-    return interpolation == LKS_VIEW_LAST_TICK ? 1.0
-                                               : static_cast<double>(interpolation) * interpolation_unit;
-}
-
-// Half a unit (5e-13 m) is given up, so that the difference of opposite ends of the world fits into 64 bits.
-double relative(std::int64_t position, std::int64_t view_origin) {
-    return static_cast<double>((position >> 1) - (view_origin >> 1)) * (2.0 * world_unit);
-}
 
 class VertexReader {
 public:
     VertexReader(const Object& object, const lks_vertex_view& view)
         : object_(object),
-          share_(share_of(view.interpolation)), origin_{relative(object.origin.x, view.view_origin.x),
-                                                        relative(object.origin.y, view.view_origin.y),
-                                                        relative(object.origin.z, view.view_origin.z)} {}
+          share_(view_share(view.interpolation)), origin_{
+                                                      relative_metres(object.origin.x, view.view_origin.x),
+                                                      relative_metres(object.origin.y, view.view_origin.y),
+                                                      relative_metres(object.origin.z, view.view_origin.z)} {}
 
     Point operator()(std::uint32_t vertex) const {
         const std::uint32_t particle = object_.asset().vertex_to_particle[vertex];

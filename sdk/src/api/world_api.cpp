@@ -181,6 +181,18 @@ uint64_t lks_world_tick(const lks_world* world) {
     return world == nullptr ? 0 : world->tick;
 }
 
+uint32_t lks_world_tick_rate(const lks_world* world) {
+    return world == nullptr ? 0 : world->rate.ticks_per_second;
+}
+
+uint32_t lks_world_substeps(const lks_world* world) {
+    return world == nullptr ? 0 : world->rate.substeps;
+}
+
+uint32_t lks_world_iterations(const lks_world* world) {
+    return world == nullptr ? 0 : world->rate.iterations;
+}
+
 lks_result lks_world_set_gravity(lks_world* world, lks_vec3 gravity) {
     if (world == nullptr) {
         return LKS_ERROR_NULL_ARGUMENT;

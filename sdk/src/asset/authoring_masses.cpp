@@ -11,7 +11,7 @@ namespace {
 using fixed::Scaled;
 
 AuthoredRange positive_range(const char* text) {
-    // Anything beyond these would put every vertex outside its own range.
+    // Wide enough for every cloth or rope whose vertices come to a mass in their own range.
     return {Scaled::ratio(1, 1000000000000000), Scaled::from_u64(10000000000000), text};
 }
 
@@ -21,10 +21,21 @@ lks_result check_vertex_mass(const Build& build, std::uint32_t vertex) {
     if (!(build.masses[vertex] < low) && !(high < build.masses[vertex])) {
         return LKS_OK;
     }
-    const std::uint64_t picograms = (build.masses[vertex] * Scaled::from_u64(1000000000000000)).to_fixed(0);
-    return build.fail(LKS_ERROR_INVALID_ARGUMENT,
-                      Sentence() << "Vertex " << vertex << " comes to a mass of " << picograms
-                                 << " picograms; it must be from 1e-8 to 1e6 kg.");
+    return build.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "Vertex " << vertex << " comes to a mass of "
+                                                             << SignedScaled{false, build.masses[vertex]}
+                                                             << " kg; it must be from 1e-8 to 1e6 kg.");
+}
+
+// Its range is checked with everybody else's.
+lks_result read_vertex_mass(Build& build, std::uint32_t vertex, double value) {
+    SignedScaled number;
+    if (!decode_double(value, number) || number.negative) {
+        return build.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "The mass of vertex " << vertex << " is "
+                                                                 << Authored{value}
+                                                                 << "; it must be from 1e-8 to 1e6 kg.");
+    }
+    build.masses[vertex] = number.magnitude;
+    return LKS_OK;
 }
 
 // The sources are told apart by their bits: +0 and -0 are "not given".
@@ -53,10 +64,10 @@ lks_result spread_mass(Build& build, const MassSource& source, const Array<Scale
     Scaled factor;
     if (source.vertex_masses == nullptr) {
         const bool total = is_given(source.mass);
-        const lks_result result =
-            total ? read_authored(build.error, "mass", source.mass, positive_range("above 0 kg"), factor)
-                  : read_authored(build.error, source.density_name, source.density, positive_range("above 0"),
-                                  factor);
+        const lks_result result = total ? read_authored(build.error, "mass", source.mass,
+                                                        positive_range("from 1e-15 to 1e13 kg"), factor)
+                                        : read_authored(build.error, source.density_name, source.density,
+                                                        positive_range("from 1e-15 to 1e13"), factor);
         if (result != LKS_OK) {
             return result;
         }
@@ -73,9 +84,7 @@ lks_result spread_mass(Build& build, const MassSource& source, const Array<Scale
     for (std::uint32_t i = 0; i < count; ++i) {
         if (source.vertex_masses == nullptr) {
             build.masses[i] = factor * extents[i];
-        } else if (const lks_result result =
-                       read_authored(build.error, "vertex mass", source.vertex_masses[i],
-                                     positive_range("from 1e-8 to 1e6 kg"), build.masses[i]);
+        } else if (const lks_result result = read_vertex_mass(build, i, source.vertex_masses[i]);
                    result != LKS_OK) {
             return result;
         }

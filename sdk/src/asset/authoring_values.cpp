@@ -86,13 +86,13 @@ lks_result read_family(lks_error* error, const char* name, const lks_distance_ma
     const AuthoredRange damping{one_over(billion), whole(billion), "0, or from 1e-9 to 1e9 N s/m"};
     Family family;
     family.enabled = material.enabled != 0;
-    if (const lks_result result =
-            read_authored_or_zero(error, "compliance", material.compliance, compliance, family.compliance);
+    if (const lks_result result = read_authored_or_zero(error, (Sentence() << name << " compliance").text(),
+                                                        material.compliance, compliance, family.compliance);
         result != LKS_OK) {
         return result;
     }
-    if (const lks_result result =
-            read_authored_or_zero(error, "damping", material.damping, damping, family.damping);
+    if (const lks_result result = read_authored_or_zero(error, (Sentence() << name << " damping").text(),
+                                                        material.damping, damping, family.damping);
         result != LKS_OK) {
         return result;
     }

@@ -119,8 +119,8 @@ bool add_batches(const Build& build) {
 }
 
 // The formats in which a batch's lengths are kept: solver/distance.h. With differences of 56 - s fraction
-// bits and gains of s bits, their errors for an edge of length L are 2^(s-57) and L·2^-(s+1): equal at s = 28
-// + log2(L)/2.
+// bits and gains of s bits, their errors for an edge of length L are 2^(s-57) and L·2^-(s+1): equal at
+// s = 28 + log2(L)/2.
 void choose_formats(lks_asset& asset, Batch& batch) {
     std::int64_t longest = 0;
     for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {

@@ -1,4 +1,5 @@
 // A rope from a length or from a polyline: stretch in two colours, bend between points two apart in two more.
+#include "api/authoring_text.h"
 #include "asset/authoring_masses.h"
 #include "asset/authoring_values.h"
 #include "asset/create.h"
@@ -20,8 +21,10 @@ lks_result place_straight(Build& build, const lks_rope_def& def) {
         return result;
     }
     if (length > coordinate_one * 60) {
-        return build.fail(LKS_ERROR_INVALID_ARGUMENT,
-                          Sentence() << "A straight rope is at most 60 m long; a polyline may be longer.");
+        return build.fail(
+            LKS_ERROR_INVALID_ARGUMENT,
+            Sentence() << "The length is " << Authored{def.length}
+                       << " m; a straight rope is at most 60 m long, a polyline may be longer.");
     }
     if (!build.positions.resize(std::size_t{def.segments} + 1)) {
         return build.fail_out_of_memory();

@@ -10,8 +10,8 @@
 namespace lks {
 namespace {
 
-// The ends of a tick's motion bound the height of each corner only where the plane does not turn; one that does is always
-// a candidate, and left to each substep.
+// The ends of a tick's motion bound the height of each corner only where the plane does not turn; one that
+// does is always a candidate, and left to each substep.
 bool plane_may_touch(const ColliderState& collider, const fixed::Vec3& origin, const Bounds& bounds,
                      std::int64_t margin) {
     if (collider.rotates()) {
@@ -36,17 +36,18 @@ fixed::Vec3 swept_extent(const ColliderState& collider, std::int64_t margin) {
 bool axis_overlaps(std::int64_t position, std::int64_t target, std::int64_t origin, std::int64_t extent,
                    std::int64_t low, std::int64_t high) {
     // Room for the rotation's rounding: two units of 9e-13 m, and 2^-20 m.
-    const std::int64_t reach = (extent >> coordinate_from_world_shift) + 2 +
-                               (std::int64_t{1} << (world_fraction_bits - 20));
+    const std::int64_t reach =
+        (extent >> coordinate_from_world_shift) + 2 + (std::int64_t{1} << (world_fraction_bits - 20));
     const std::int64_t least = saturating_subtract(std::min(position, target), origin);
     const std::int64_t greatest = saturating_subtract(std::max(position, target), origin);
     return saturating_subtract(least, reach) <= (high >> coordinate_from_world_shift) + 1 &&
            fixed::saturating_add(greatest, reach) >= (low >> coordinate_from_world_shift);
 }
 
-}  // namespace
+} // namespace
 
-bool may_touch(const ColliderState& collider, const fixed::Vec3& origin, const Bounds& bounds, std::int64_t margin) {
+bool may_touch(const ColliderState& collider, const fixed::Vec3& origin, const Bounds& bounds,
+               std::int64_t margin) {
     if (collider.shape.kind == LKS_SHAPE_PLANE) {
         return plane_may_touch(collider, origin, bounds, margin);
     }
@@ -58,4 +59,4 @@ bool may_touch(const ColliderState& collider, const fixed::Vec3& origin, const B
            axis_overlaps(p.z, t.z, origin.z, extent.z, bounds.low.z, bounds.high.z);
 }
 
-}  // namespace lks
+} // namespace lks

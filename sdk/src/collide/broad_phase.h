@@ -7,12 +7,14 @@
 
 namespace lks {
 
-// False only where the collider, on its way through the whole tick, stays further than `margin` from everything within
-// `bounds` (Coordinate, around `origin`; any 64-bit values). Exact in integers, so that no rounding can lose a contact.
-bool may_touch(const ColliderState& collider, const fixed::Vec3& origin, const Bounds& bounds, std::int64_t margin);
+// False only where the collider, on its way through the whole tick, stays further than `margin` from
+// everything within `bounds` (Coordinate, around `origin`; any 64-bit values). Exact in integers, so that no
+// rounding can lose a contact.
+bool may_touch(const ColliderState& collider, const fixed::Vec3& origin, const Bounds& bounds,
+               std::int64_t margin);
 
-// Writes the indices of those slots that may be touched, in ascending order, and returns their number. A slot has `used` and
-// `collider`; `indices` has room for all.
+// Writes the indices of those slots that may be touched, in ascending order, and returns their number. A slot
+// has `used` and `collider`; `indices` has room for all.
 template <typename Slot>
 std::uint32_t collect_candidates(const Slot* slots, std::uint32_t count, const fixed::Vec3& origin,
                                  const Bounds& bounds, std::int64_t margin, std::uint32_t* indices) {
@@ -25,4 +27,4 @@ std::uint32_t collect_candidates(const Slot* slots, std::uint32_t count, const f
     return found;
 }
 
-}  // namespace lks
+} // namespace lks

@@ -10,7 +10,8 @@
 namespace lks {
 namespace {
 
-// Centres are kept within this on each axis: particles reach 64 m and shapes 61 m, so no shape touches from outside.
+// Centres are kept within this on each axis: particles reach 64 m and shapes 61 m, so no shape touches from
+// outside.
 constexpr std::int64_t centre_limit = std::int64_t{126} << world_fraction_bits;
 // Beyond this at either end, the whole substep is out of reach, for a collider moves at most 100 m a tick.
 constexpr std::int64_t hopeless = std::int64_t{512} << world_fraction_bits;
@@ -32,11 +33,13 @@ void move_to_limit(fixed::Vec3& from, const fixed::Vec3& to, int axis, std::int6
 }
 
 bool is_hopeless(const fixed::Vec3& v) {
-    return fixed::magnitude(v.x) > hopeless || fixed::magnitude(v.y) > hopeless || fixed::magnitude(v.z) > hopeless;
+    return fixed::magnitude(v.x) > hopeless || fixed::magnitude(v.y) > hopeless ||
+           fixed::magnitude(v.z) > hopeless;
 }
 
-// Cuts the way from a to b down to what lies within the limit of centres. False: nothing. Only colliders that cover tens of
-// metres in one substep are ever cut; the particle then covers its own way while the collider covers the rest of its.
+// Cuts the way from a to b down to what lies within the limit of centres. False: nothing. Only colliders that
+// cover tens of metres in one substep are ever cut; the particle then covers its own way while the collider
+// covers the rest of its.
 bool cut_to_limit(fixed::Vec3& a, fixed::Vec3& b) {
     if (is_hopeless(a) || is_hopeless(b)) {
         return false;
@@ -67,7 +70,8 @@ fixed::Vec3 to_coordinate(const fixed::Vec3& v) {
 fixed::Vec3 position_at(const ColliderState& collider, std::uint32_t substep, std::uint32_t substeps) {
     const fixed::Vec3& a = collider.position;
     const fixed::Vec3& b = collider.target_position;
-    return {interpolate_position(a.x, b.x, substep, substeps), interpolate_position(a.y, b.y, substep, substeps),
+    return {interpolate_position(a.x, b.x, substep, substeps),
+            interpolate_position(a.y, b.y, substep, substeps),
             interpolate_position(a.z, b.z, substep, substeps)};
 }
 
@@ -81,8 +85,9 @@ fixed::Rotation rotation_at(const ColliderState& collider, std::uint32_t substep
     return fixed::interpolate(collider.rotation, collider.target_rotation, substep, substeps);
 }
 
-// A bound of |end - start| of two rotation matrices, 2·sin(angle/2), Q30, rounded up: for a rotation that norm is the root of
-// half the sum of the squares of all entries; 3/4 instead of 0.7071 leaves room for the matrices' own rounding.
+// A bound of |end - start| of two rotation matrices, 2·sin(angle/2), Q30, rounded up: for a rotation that
+// norm is the root of half the sum of the squares of all entries; 3/4 instead of 0.7071 leaves room for the
+// matrices' own rounding.
 std::int64_t turn_bound(const fixed::Matrix3& start, const fixed::Matrix3& end) {
     std::uint64_t sum = 0;
     for (int row = 0; row < 3; ++row) {
@@ -96,17 +101,20 @@ std::int64_t turn_bound(const fixed::Matrix3& start, const fixed::Matrix3& end) 
 }
 
 std::uint32_t combined_friction(std::int64_t coefficient, std::int64_t factor) {
-    const fixed::UInt128 product = fixed::multiply_unsigned(fixed::magnitude(coefficient), fixed::magnitude(factor));
-    const fixed::UInt128 scaled = fixed::shift_right_rounded(product, 2 * world_fraction_bits - friction_fraction_bits);
+    const fixed::UInt128 product =
+        fixed::multiply_unsigned(fixed::magnitude(coefficient), fixed::magnitude(factor));
+    const fixed::UInt128 scaled =
+        fixed::shift_right_rounded(product, 2 * world_fraction_bits - friction_fraction_bits);
     return scaled.hi != 0 || scaled.lo > UINT32_MAX ? UINT32_MAX : static_cast<std::uint32_t>(scaled.lo);
 }
 
 // How much larger than the shape at its end pose the box has to be for what happens between the poses.
 //
-// A particle at q(t) that the shape touches at its local point p(t) is away from where the end pose has p(t) by at most
-// |dc| + turn·|local start|, turn being the norm of the difference of the rotations and dc the centre's motion. The local start is at
-// most radius + |m| away from the centre, and |m| <= |x - start| + |dc| + turn·|local start|. With turn <= 1/3 that makes
-// |local start| <= 3/2 (radius + |x - start| + |dc|): the particle's share, turn·3/2 <= 1/2, is added when it is tested.
+// A particle at q(t) that the shape touches at its local point p(t) is away from where the end pose has p(t)
+// by at most |dc| + turn·|local start|, turn being the norm of the difference of the rotations and dc the
+// centre's motion. The local start is at most radius + |m| away from the centre, and |m| <= |x - start| +
+// |dc| + turn·|local start|. With turn <= 1/3 that makes |local start| <= 3/2 (radius + |x - start| + |dc|):
+// the particle's share, turn·3/2 <= 1/2, is added when it is tested.
 struct Slack {
     bool known;
     std::int64_t distance;
@@ -154,9 +162,10 @@ void place_box(ContactFrame& frame, const Bounds& bounds) {
                       high.y >= frame.box_low.y && low.z <= frame.box_high.z && high.z >= frame.box_low.z;
 }
 
-}  // namespace
+} // namespace
 
-std::int64_t interpolate_position(std::int64_t a, std::int64_t b, std::uint32_t numerator, std::uint32_t denominator) {
+std::int64_t interpolate_position(std::int64_t a, std::int64_t b, std::uint32_t numerator,
+                                  std::uint32_t denominator) {
     const std::int64_t whole = fixed::wrapping_subtract(b, a);
     const auto n = static_cast<std::int64_t>(denominator);
     const auto j = static_cast<std::int64_t>(numerator);
@@ -197,4 +206,4 @@ ContactFrame make_contact_frame(const ColliderState& collider, std::uint32_t sub
     return frame;
 }
 
-}  // namespace lks
+} // namespace lks

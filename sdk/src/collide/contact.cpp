@@ -7,15 +7,15 @@
 namespace lks {
 namespace {
 
-// Positions relative to a shape's centre are followed within this ball; no shape reaches past 61 m. Differences of two
-// such positions then fit into 64 bits, and so do their lengths.
+// Positions relative to a shape's centre are followed within this ball; no shape reaches past 61 m.
+// Differences of two such positions then fit into 64 bits, and so do their lengths.
 constexpr std::int64_t followed_radius = coordinate_one * 63;
 
 // The plane that a particle may not get behind, in the shape's frame at the end of the substep.
 struct Contact {
     fixed::Direction normal;
-    std::int64_t depth;      // of the particle's present position behind it, > 0
-    std::int64_t old_depth;  // the part of depth that was there when the substep began
+    std::int64_t depth;     // of the particle's present position behind it, > 0
+    std::int64_t old_depth; // the part of depth that was there when the substep began
 };
 
 // The relative way of one particle through the substep, in the shape's frame.
@@ -31,9 +31,11 @@ bool is_followed(const fixed::Vec3& v) {
     return x * x + y * y + z * z < radius * radius;
 }
 
-// px - c0 where it is too long: the point at which the way to `end`, which is followed, comes within the followed ball. What is
-// left out is at least a metre from the shape. Halved, as the differences may have 65 bits.
-fixed::Vec3 cut_start(const fixed::Vec3& start_position, const fixed::Vec3& start_centre, const fixed::Vec3& end) {
+// px - c0 where it is too long: the point at which the way to `end`, which is followed, comes within the
+// followed ball. What is left out is at least a metre from the shape. Halved, as the differences may have 65
+// bits.
+fixed::Vec3 cut_start(const fixed::Vec3& start_position, const fixed::Vec3& start_centre,
+                      const fixed::Vec3& end) {
     fixed::Vec3 outer = {(start_position.x >> 1) - (start_centre.x >> 1),
                          (start_position.y >> 1) - (start_centre.y >> 1),
                          (start_position.z >> 1) - (start_centre.z >> 1)};
@@ -64,11 +66,13 @@ bool find_way(const ContactFrame& frame, const fixed::Vec3& position, const fixe
 }
 
 // For planes: an object may reach 128 m from the plane's centre, so that the differences are halved, too.
-fixed::Vec3 plane_local(const fixed::Matrix3& rotation, const fixed::Vec3& position, const fixed::Vec3& centre) {
+fixed::Vec3 plane_local(const fixed::Matrix3& rotation, const fixed::Vec3& position,
+                        const fixed::Vec3& centre) {
     const auto half = [](std::int64_t a, std::int64_t b) {
         return std::clamp((a >> 1) - (b >> 1), -coordinate_limit, coordinate_limit);
     };
-    const fixed::Vec3 relative = {half(position.x, centre.x), half(position.y, centre.y), half(position.z, centre.z)};
+    const fixed::Vec3 relative = {half(position.x, centre.x), half(position.y, centre.y),
+                                  half(position.z, centre.z)};
     const fixed::Vec3 local = fixed::rotate_transposed(rotation, relative);
     return {saturating_double(local.x), saturating_double(local.y), saturating_double(local.z)};
 }
@@ -77,17 +81,18 @@ fixed::Vec3 plane_local(const fixed::Matrix3& rotation, const fixed::Vec3& posit
 fixed::Vec3 advance(const fixed::Vec3& rest, std::int64_t distance, std::int64_t closing) {
     const int shift = std::max(0, 32 - std::countl_zero(static_cast<std::uint64_t>(closing)));
     const std::uint64_t divisor = (static_cast<std::uint64_t>(closing) >> shift) + 1;
-    const std::uint64_t share = ((static_cast<std::uint64_t>(distance) >> shift) << 30) / divisor;  // Q30, < 1
+    const std::uint64_t share = ((static_cast<std::uint64_t>(distance) >> shift) << 30) / divisor; // Q30, < 1
     const auto factor = static_cast<std::int32_t>(share);
     return {fixed::scale_component(factor, rest.x), fixed::scale_component(factor, rest.y),
             fixed::scale_component(factor, rest.z)};
 }
 
-// Follows the way from an outside start until it meets the shape. Sphere tracing (Hart 1996) would go on by the distance, which
-// near a grazing surface takes any number of steps; the plane through the nearest surface point has the whole convex shape
-// behind it, so that the way is free up to there. On the distance along the way, a convex function, this is Newton's
-// method: from outside it never passes the root, and it doubles the digits with each step (at a tangent, the distance falls
-// to a quarter). Some 25 steps reach the tolerance from anywhere.
+// Follows the way from an outside start until it meets the shape. Sphere tracing (Hart 1996) would go on by
+// the distance, which near a grazing surface takes any number of steps; the plane through the nearest surface
+// point has the whole convex shape behind it, so that the way is free up to there. On the distance along the
+// way, a convex function, this is Newton's method: from outside it never passes the root, and it doubles the
+// digits with each step (at a tangent, the distance falls to a quarter). Some 25 steps reach the tolerance
+// from anywhere.
 constexpr int greatest_trace_steps = 64;
 
 template <lks_shape_kind kind>
@@ -98,7 +103,7 @@ bool find_contact(const ContactFrame& frame, const Way& way, Contact& contact) {
     std::int64_t closing = -fixed::dot(nearest.normal, rest);
     for (int step = 0; step < greatest_trace_steps; ++step) {
         if (closing <= nearest.distance) {
-            return false;  // never gets behind the plane
+            return false; // never gets behind the plane
         }
         if (nearest.distance <= contact_tolerance) {
             break;
@@ -121,7 +126,8 @@ bool find_plane_contact(const ContactFrame& frame, const Way& way, Contact& cont
     const std::int64_t start_height = saturating_subtract(way.start.y, frame.margin);
     contact.normal = {0, direction_one, 0};
     contact.depth = saturating_subtract(0, height);
-    contact.old_depth = std::min(contact.depth, std::max<std::int64_t>(saturating_subtract(0, start_height), 0));
+    contact.old_depth =
+        std::min(contact.depth, std::max<std::int64_t>(saturating_subtract(0, start_height), 0));
     return true;
 }
 
@@ -130,15 +136,17 @@ std::int64_t times_friction(std::uint32_t coefficient, std::int64_t depth) {
     return saturate(fixed::saturate_to_uint64(fixed::shift_right_rounded(product, friction_fraction_bits)));
 }
 
-// Coulomb's law on positions. The normal impulse of the substep has moved the particle by the new depth, so that friction may
-// move it by up to the static coefficient times that against the sliding of this substep: if that does for all of it the
-// particle sticks, else the dynamic coefficient counts. Returns by how much it slides less.
+// Coulomb's law on positions. The normal impulse of the substep has moved the particle by the new depth, so
+// that friction may move it by up to the static coefficient times that against the sliding of this substep:
+// if that does for all of it the particle sticks, else the dynamic coefficient counts. Returns by how much it
+// slides less.
 fixed::Vec3 friction(const ContactFrame& frame, const Way& way, const Contact& contact) {
     const std::int64_t new_depth = contact.depth - contact.old_depth;
     if (frame.static_friction == 0 || new_depth == 0) {
         return {0, 0, 0};
     }
-    const fixed::Vec3 motion = saturating_subtract(way.end, way.start) + fixed::scale(contact.normal, new_depth);
+    const fixed::Vec3 motion =
+        saturating_subtract(way.end, way.start) + fixed::scale(contact.normal, new_depth);
     const fixed::Vec3 sliding = motion - fixed::scale(contact.normal, fixed::dot(contact.normal, motion));
     fixed::NormalisedVector slide{};
     if (!fixed::normalise(sliding, slide)) {
@@ -174,8 +182,10 @@ void apply(const ContactFrame& frame, const Way& way, const Contact& contact, co
 // Most particles leave here: the bounding box of the way against the box of the frame, in object space.
 template <bool rotating>
 bool misses_box(const ContactFrame& frame, const fixed::Vec3& position, const fixed::Vec3& start) {
-    fixed::Vec3 low = {std::min(position.x, start.x), std::min(position.y, start.y), std::min(position.z, start.z)};
-    fixed::Vec3 high = {std::max(position.x, start.x), std::max(position.y, start.y), std::max(position.z, start.z)};
+    fixed::Vec3 low = {std::min(position.x, start.x), std::min(position.y, start.y),
+                       std::min(position.z, start.z)};
+    fixed::Vec3 high = {std::max(position.x, start.x), std::max(position.y, start.y),
+                        std::max(position.z, start.z)};
     if constexpr (rotating) {
         const std::int64_t own = sum_of_magnitudes(saturating_subtract(high, low)) / 2 + 1;
         low = saturating_subtract(low, {own, own, own});
@@ -248,7 +258,7 @@ void resolve_plane(const ContactFrame& frame, const ParticleArrays& particles, s
     }
 }
 
-}  // namespace
+} // namespace
 
 void resolve_contacts(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
                       std::uint32_t count) {
@@ -267,4 +277,4 @@ void resolve_contacts(const ContactFrame& frame, const ParticleArrays& particles
     }
 }
 
-}  // namespace lks
+} // namespace lks

@@ -1,14 +1,18 @@
 // Contacts of particles with one collider, at the level of positions.
 //
-// Why nothing tunnels. Seen from the shape, a particle goes through a substep on a straight line. If the line meets the shape,
-// the particle is put in front of the plane that touches the shape where the line enters it. Every shape here is convex,
-// and stays so when the particle's radius is added; a plane through the surface point nearest to an outside point, across
-// the shortest way to it, then has the whole shape behind it. So does a plane through the face or surface point nearest
-// to an inside point. Whatever ends in front of such a plane ends outside, on the side it came from, also after friction
-// has moved it along the plane.
+// Why nothing tunnels. Seen from the shape, a particle goes through a substep on a straight line. If the line
+// meets the shape, the particle is put in front of the plane that touches the shape where the line enters it.
+// Every shape here is convex, and stays so when the particle's radius is added; a plane through the surface
+// point nearest to an outside point, across the shortest way to it, then has the whole shape behind it. So
+// does a plane through the face or surface point nearest to an inside point. Whatever ends in front of such a
+// plane ends outside, on the side it came from, also after friction has moved it along the plane.
 //
-// Velocity is x - start per substep, so that putting x in front of the plane is an inelastic impact. What the particle
-// was inside already at the start of the substep, start is moved by as well: recovering from an old overlap gives no speed.
+// Velocity is x - start per substep, so that putting x in front of the plane is an inelastic impact. What the
+// particle was inside already at the start of the substep, start is moved by as well: recovering from an old
+// overlap gives no speed.
+//
+// The limit: whatever ends a substep more than 63 m from a shape's centre is not looked at, so that a
+// collider which covers some 60 m in one substep passes what is in its way.
 #pragma once
 
 #include <cstdint>
@@ -30,9 +34,9 @@ struct ParticleArrays {
 // A hit is accepted this close in front of the surface (0.95 µm).
 inline constexpr std::int64_t contact_tolerance = coordinate_one >> 20;
 
-// Particles first .. first + count - 1. Each result depends on that particle and the frame only. Positions that are pushed
-// beyond ±coordinate_limit stop there. No undefined behaviour for any positions.
+// Particles first .. first + count - 1. Each result depends on that particle and the frame only. Positions
+// that are pushed beyond ±coordinate_limit stop there. No undefined behaviour for any positions.
 void resolve_contacts(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
                       std::uint32_t count);
 
-}  // namespace lks
+} // namespace lks

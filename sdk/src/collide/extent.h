@@ -13,9 +13,10 @@ constexpr std::int64_t share(std::int32_t entry, std::int64_t length) {
     return fixed::scale_component(entry < 0 ? -entry : entry, length) + 1;
 }
 
-}  // namespace extent_detail
+} // namespace extent_detail
 
-// Of the shape grown by `margin`; not less than it is but for the matrix' own rounding (1e-9 of it). Not for planes.
+// Of the shape grown by `margin`; not less than it is but for the matrix' own rounding (1e-9 of it). Not for
+// planes.
 constexpr fixed::Vec3 axis_extent(const Shape& shape, const fixed::Matrix3& rotation, std::int64_t margin) {
     std::int64_t extent[3] = {};
     for (int axis = 0; axis < 3; ++axis) {
@@ -32,4 +33,4 @@ constexpr fixed::Vec3 axis_extent(const Shape& shape, const fixed::Matrix3& rota
     return {extent[0], extent[1], extent[2]};
 }
 
-}  // namespace lks
+} // namespace lks

@@ -10,13 +10,15 @@ namespace {
 
 constexpr std::int64_t greatest_lift = coordinate_one * 32;
 constexpr std::int64_t greatest_height = coordinate_one * 127;
-// A point of the plane that moves further than this in a substep is not followed: it slides, whatever the friction.
+// A point of the plane that moves further than this in a substep is not followed: it slides, whatever the
+// friction.
 constexpr std::int64_t greatest_carry = coordinate_one * 32;
 // The lever of a rotating plane: differences of world positions have up to 25 bits before the point.
 constexpr int lever_fraction_bits = 36;
 
 fixed::Int128 dot_exact(const fixed::Direction& n, const fixed::Vec3& v) {
-    return fixed::multiply_signed(n.x, v.x) + fixed::multiply_signed(n.y, v.y) + fixed::multiply_signed(n.z, v.z);
+    return fixed::multiply_signed(n.x, v.x) + fixed::multiply_signed(n.y, v.y) +
+           fixed::multiply_signed(n.z, v.z);
 }
 
 std::int64_t to_coordinate(fixed::Int128 height) {
@@ -55,8 +57,8 @@ std::int64_t from_world(std::int64_t value) {
     return std::clamp(value, -limit, limit) * (std::int64_t{1} << coordinate_from_world_shift);
 }
 
-// By how much the motion moves the plane's own point that starts at `point`. Without a turn it moves as the plane does,
-// exactly; with one, its lever from the plane's position turns too.
+// By how much the motion moves the plane's own point that starts at `point`. Without a turn it moves as the
+// plane does, exactly; with one, its lever from the plane's position turns too.
 fixed::Vec3 carried(const ContactFrame& frame, const fixed::Vec3& point, const fixed::Vec3& start,
                     const fixed::Vec3& end, const fixed::Vec3& origin) {
     const fixed::Vec3 moved = saturating_subtract(end, start);
@@ -78,7 +80,7 @@ bool is_followed(const fixed::Vec3& v) {
     return fixed::magnitude(v.x) <= limit && fixed::magnitude(v.y) <= limit && fixed::magnitude(v.z) <= limit;
 }
 
-}  // namespace
+} // namespace
 
 fixed::Int128 height_above_plane(const fixed::Direction& normal, const fixed::Vec3& position,
                                  const fixed::Vec3& origin, const fixed::Vec3& point) {
@@ -86,16 +88,16 @@ fixed::Int128 height_above_plane(const fixed::Direction& normal, const fixed::Ve
     return dot_exact(normal, point) - (world << coordinate_from_world_shift);
 }
 
-fixed::Int128 lowest_height(const fixed::Direction& normal, const fixed::Vec3& position, const fixed::Vec3& origin,
-                            const Bounds& bounds) {
+fixed::Int128 lowest_height(const fixed::Direction& normal, const fixed::Vec3& position,
+                            const fixed::Vec3& origin, const Bounds& bounds) {
     const fixed::Vec3 corner = {normal.x > 0 ? bounds.low.x : bounds.high.x,
                                 normal.y > 0 ? bounds.low.y : bounds.high.y,
                                 normal.z > 0 ? bounds.low.z : bounds.high.z};
     return height_above_plane(normal, position, origin, corner);
 }
 
-bool place_plane(ContactFrame& frame, const fixed::Vec3& start, const fixed::Vec3& end, const fixed::Vec3& origin,
-                 const Bounds& bounds) {
+bool place_plane(ContactFrame& frame, const fixed::Vec3& start, const fixed::Vec3& end,
+                 const fixed::Vec3& origin, const Bounds& bounds) {
     const fixed::Direction end_normal = plane_normal(frame.end_rotation);
     if (to_coordinate(lowest_height(end_normal, end, origin, bounds)) > frame.margin) {
         return false;
@@ -114,4 +116,4 @@ bool place_plane(ContactFrame& frame, const fixed::Vec3& start, const fixed::Vec
     return true;
 }
 
-}  // namespace lks
+} // namespace lks

@@ -1,5 +1,5 @@
-// Differences of 64-bit numbers that stop at the ends of the range: what saturates here is further away than anything that
-// can touch.
+// Differences of 64-bit numbers that stop at the ends of the range: what saturates here is further away than
+// anything that can touch.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,13 @@ constexpr fixed::Vec3 saturating_subtract(const fixed::Vec3& a, const fixed::Vec
 }
 
 constexpr fixed::Vec3 saturating_add(const fixed::Vec3& a, const fixed::Vec3& b) {
-    return {fixed::saturating_add(a.x, b.x), fixed::saturating_add(a.y, b.y), fixed::saturating_add(a.z, b.z)};
+    return {fixed::saturating_add(a.x, b.x), fixed::saturating_add(a.y, b.y),
+            fixed::saturating_add(a.z, b.z)};
 }
 
-constexpr std::int64_t saturating_double(std::int64_t a) { return fixed::saturating_add(a, a); }
+constexpr std::int64_t saturating_double(std::int64_t a) {
+    return fixed::saturating_add(a, a);
+}
 
 // min(a, INT64_MAX)
 constexpr std::int64_t saturate(std::uint64_t a) {
@@ -37,4 +40,4 @@ constexpr std::int64_t sum_of_magnitudes(const fixed::Vec3& v) {
         saturate(fixed::magnitude(v.z)));
 }
 
-}  // namespace lks
+} // namespace lks

@@ -33,4 +33,4 @@ std::int64_t bounding_radius(const Shape& shape, std::int64_t margin) {
     }
 }
 
-}  // namespace lks
+} // namespace lks

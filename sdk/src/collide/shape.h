@@ -1,12 +1,14 @@
 // The solid shapes, and their exact signed distance.
 //
-// All but the plane are a core (a point, a segment, a box) with everything within a radius of it; a particle's radius, the
-// `margin`, only makes that radius larger. So there is one formula for the outside of them: the way from the nearest
-// point of the core to the particle has the length distance + radius + margin and the direction of the normal.
+// All but the plane are a core (a point, a segment, a box) with everything within a radius of it; a
+// particle's radius, the `margin`, only makes that radius larger. So there is one formula for the outside of
+// them: the way from the nearest point of the core to the particle has the length distance + radius + margin
+// and the direction of the normal.
 //
-// Everything is in the shape's own frame and in Coordinate format. Distances are right to 1e-15 m + 2^-56 m for
-// points within 72 m on each axis (a point further out is taken at the edge of that cube: no shape reaches past 61 m,
-// so its distance only comes out too small, and positive still). Normals are right to 1.3 units of 2^-30 an axis.
+// Everything is in the shape's own frame and in Coordinate format. Distances are right to 1e-15 m + 2^-56 m
+// for points within 72 m on each axis (a point further out is taken at the edge of that cube: no shape
+// reaches past 61 m, so its distance only comes out too small, and positive still). Normals are right to 1.3
+// units of 2^-30 an axis.
 #pragma once
 
 #include <lockstitch/collider.h>
@@ -20,15 +22,15 @@
 namespace lks {
 
 struct Shape {
-    std::uint32_t kind;  // lks_shape_kind
+    std::uint32_t kind; // lks_shape_kind
     std::int64_t radius;
     std::int64_t half_length;
     fixed::Vec3 half_extents;
 };
 
 struct SurfacePoint {
-    std::int64_t distance;  // negative inside
-    fixed::Direction normal;  // outwards
+    std::int64_t distance;   // negative inside
+    fixed::Direction normal; // outwards
 };
 
 namespace shape_detail {
@@ -47,23 +49,25 @@ constexpr fixed::Vec3 offset_from_core(const Shape& shape, const fixed::Vec3& p)
         return {p.x, p.y - std::clamp(p.y, -shape.half_length, shape.half_length), p.z};
     } else if constexpr (kind == LKS_SHAPE_BOX) {
         const fixed::Vec3& h = shape.half_extents;
-        return {p.x - std::clamp(p.x, -h.x, h.x), p.y - std::clamp(p.y, -h.y, h.y), p.z - std::clamp(p.z, -h.z, h.z)};
+        return {p.x - std::clamp(p.x, -h.x, h.x), p.y - std::clamp(p.y, -h.y, h.y),
+                p.z - std::clamp(p.z, -h.z, h.z)};
     } else {
         return p;
     }
 }
 
-// |v| from the direction that normalise() gave. Where that is off by an angle e, u·v is |v|·|u|·(1 - e²/2): with |u|
-// taken out, of e = 2e-9 nothing is left.
+// |v| from the direction that normalise() gave. Where that is off by an angle e, u·v is |v|·|u|·(1 - e²/2):
+// with |u| taken out, of e = 2e-9 nothing is left.
 constexpr std::int64_t length_along(const fixed::Direction& u, const fixed::Vec3& v) {
     const std::int64_t projected = fixed::dot(u, v);
     // |u|² - 1, Q60; half of it is what |u| is too long, to first order.
-    const std::int64_t excess = std::int64_t{u.x} * u.x + std::int64_t{u.y} * u.y + std::int64_t{u.z} * u.z -
-                                (std::int64_t{1} << 60);
+    const std::int64_t excess =
+        std::int64_t{u.x} * u.x + std::int64_t{u.y} * u.y + std::int64_t{u.z} * u.z - (std::int64_t{1} << 60);
     return projected - (((projected >> 34) * excess) >> 27);
 }
 
-// p within the core of a box: the nearest face, on a tie x before y before z, and the positive one where p is in the middle.
+// p within the core of a box: the nearest face, on a tie x before y before z, and the positive one where p is
+// in the middle.
 constexpr SurfacePoint nearest_face(const fixed::Vec3& h, const fixed::Vec3& p) {
     const auto beyond = [](std::int64_t a, std::int64_t extent) { return (a < 0 ? -a : a) - extent; };
     const auto side = [](std::int64_t a) { return a < 0 ? -direction_one : direction_one; };
@@ -92,7 +96,8 @@ constexpr bool along_one_axis(const fixed::Vec3& v, SurfacePoint& out) {
     return true;
 }
 
-// Where p lies on the core itself. A sphere's centre has no nearest point: its +y pole stands in; +x on a capsule's axis.
+// Where p lies on the core itself. A sphere's centre has no nearest point: its +y pole stands in; +x on a
+// capsule's axis.
 template <lks_shape_kind kind>
 constexpr SurfacePoint nearest_from_core(const Shape& shape, const fixed::Vec3& p) {
     if constexpr (kind == LKS_SHAPE_BOX) {
@@ -104,11 +109,12 @@ constexpr SurfacePoint nearest_from_core(const Shape& shape, const fixed::Vec3& 
     }
 }
 
-}  // namespace shape_detail
+} // namespace shape_detail
 
 // The nearest point of the shape grown by `margin` (0 .. 1 m).
 template <lks_shape_kind kind>
-constexpr SurfacePoint nearest_surface(const Shape& shape, const fixed::Vec3& local_point, std::int64_t margin) {
+constexpr SurfacePoint nearest_surface(const Shape& shape, const fixed::Vec3& local_point,
+                                       std::int64_t margin) {
     if constexpr (kind == LKS_SHAPE_PLANE) {
         const std::int64_t height = std::max(local_point.y, INT64_MIN + margin);
         return {height - margin, {0, direction_one, 0}};
@@ -134,7 +140,8 @@ constexpr SurfacePoint nearest_surface(const Shape& shape, const fixed::Vec3& lo
 
 // True only where distance >= reach, and nearly always there: decided on 24 fraction bits, without a root.
 template <lks_shape_kind kind>
-constexpr bool is_beyond(const Shape& shape, const fixed::Vec3& local_point, std::int64_t margin, std::int64_t reach) {
+constexpr bool is_beyond(const Shape& shape, const fixed::Vec3& local_point, std::int64_t margin,
+                         std::int64_t reach) {
     if constexpr (kind == LKS_SHAPE_PLANE) {
         return local_point.y >= fixed::saturating_add(margin, reach);
     } else {
@@ -144,7 +151,8 @@ constexpr bool is_beyond(const Shape& shape, const fixed::Vec3& local_point, std
         const std::uint64_t x = fixed::magnitude(offset.x) >> 32;
         const std::uint64_t y = fixed::magnitude(offset.y) >> 32;
         const std::uint64_t z = fixed::magnitude(offset.z) >> 32;
-        const auto far = static_cast<std::uint64_t>(fixed::saturating_add(shape.radius + margin, reach) >> 32) + 1;
+        const auto far =
+            static_cast<std::uint64_t>(fixed::saturating_add(shape.radius + margin, reach) >> 32) + 1;
         return x * x + y * y + z * z > far * far;
     }
 }
@@ -153,7 +161,8 @@ constexpr bool is_beyond(const Shape& shape, const fixed::Vec3& local_point, std
 SurfacePoint nearest_surface(const Shape& shape, const fixed::Vec3& local_point, std::int64_t margin);
 std::int64_t distance_only(const Shape& shape, const fixed::Vec3& local_point, std::int64_t margin);
 
-// The radius about its centre that contains the shape grown by `margin`; a plane has none (the greatest number).
+// The radius about its centre that contains the shape grown by `margin`; a plane has none (the greatest
+// number).
 std::int64_t bounding_radius(const Shape& shape, std::int64_t margin);
 
-}  // namespace lks
+} // namespace lks

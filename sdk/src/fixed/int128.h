@@ -2,8 +2,6 @@
 // cannot be (a quotient, a root, a narrowing) says how it rounds and what it does at the edge.
 #pragma once
 
-#include <compare>
-
 #include "fixed/integer.h"
 
 namespace lks::fixed {
@@ -12,9 +10,12 @@ struct UInt128 {
     std::uint64_t hi, lo;
 
     friend constexpr bool operator==(const UInt128&, const UInt128&) = default;
-    friend constexpr std::strong_ordering operator<=>(const UInt128& a, const UInt128& b) {
-        return a.hi != b.hi ? a.hi <=> b.hi : a.lo <=> b.lo;
+    friend constexpr bool operator<(const UInt128& a, const UInt128& b) {
+        return a.hi != b.hi ? a.hi < b.hi : a.lo < b.lo;
     }
+    friend constexpr bool operator>(const UInt128& a, const UInt128& b) { return b < a; }
+    friend constexpr bool operator<=(const UInt128& a, const UInt128& b) { return !(b < a); }
+    friend constexpr bool operator>=(const UInt128& a, const UInt128& b) { return !(a < b); }
 };
 
 // Two's complement: value = hi * 2^64 + lo.
@@ -23,9 +24,12 @@ struct Int128 {
     std::uint64_t lo;
 
     friend constexpr bool operator==(const Int128&, const Int128&) = default;
-    friend constexpr std::strong_ordering operator<=>(const Int128& a, const Int128& b) {
-        return a.hi != b.hi ? a.hi <=> b.hi : a.lo <=> b.lo;
+    friend constexpr bool operator<(const Int128& a, const Int128& b) {
+        return a.hi != b.hi ? a.hi < b.hi : a.lo < b.lo;
     }
+    friend constexpr bool operator>(const Int128& a, const Int128& b) { return b < a; }
+    friend constexpr bool operator<=(const Int128& a, const Int128& b) { return !(b < a); }
+    friend constexpr bool operator>=(const Int128& a, const Int128& b) { return !(a < b); }
 };
 
 constexpr UInt128 to_uint128(std::uint64_t a) {

@@ -197,6 +197,9 @@ public:
             slot.used = in.u32() != 0;
             if (slot.used) {
                 slot.collider = read_collider(in);
+                // There is no tick before for the view to start from.
+                slot.collider.previous_position = slot.collider.position;
+                slot.collider.previous_rotation = slot.collider.rotation;
             }
             world_.colliders.push_reserved(slot);
         }

@@ -1,0 +1,75 @@
+#include "golden/recorder.h"
+
+#include <lockstitch/lockstitch.h>
+
+#include "golden/text.h"
+
+namespace lks_golden {
+namespace {
+
+constexpr std::uint32_t points_per_object = 5;
+
+} // namespace
+
+Recorder::Recorder(lks_demo::Scene& scene) : scene_(scene) {
+    state_.scene = scene.info().name;
+    record_parameters();
+    record_tick();
+}
+
+void Recorder::record_parameters() {
+    const lks_world* world = scene_.world();
+    const auto add = [this](const std::string& key, const std::string& value) {
+        state_.parameters.emplace_back(key, value);
+    };
+    lks_vec3 gravity{};
+    lks_world_gravity(world, &gravity);
+    add("solver_version", std::to_string(lks_solver_version()));
+    add("tick_rate_hz", std::to_string(lks_world_tick_rate(world)));
+    add("substeps", std::to_string(lks_world_substeps(world)));
+    add("iterations", std::to_string(lks_world_iterations(world)));
+    add("gravity", decimal(gravity));
+    for (const lks_demo::ObjectLook& object : scene_.objects()) {
+        const lks_asset* asset = lks_object_asset(world, object.id);
+        add("object_" + object.name, "vertices " + std::to_string(lks_asset_vertex_count(asset)) +
+                                         " constraints " + std::to_string(lks_asset_constraint_count(asset)) +
+                                         " colours " + std::to_string(lks_asset_colour_count(asset)) +
+                                         " asset " + hexadecimal(lks_asset_fingerprint(asset)));
+    }
+}
+
+void Recorder::record_tick() {
+    const lks_world* world = scene_.world();
+    TickRecord record;
+    record.tick = lks_world_tick(world);
+    if (record.tick % ticks_between_records != 0) {
+        return;
+    }
+    record.state = lks_world_hash(world);
+    record.local = lks_world_local_hash(world);
+    for (const lks_demo::ObjectLook& object : scene_.objects()) {
+        record.objects.push_back({object.id.index, object.name, lks_object_hash(world, object.id)});
+    }
+    state_.ticks.push_back(record);
+}
+
+void Recorder::record_points() {
+    const lks_world* world = scene_.world();
+    for (const lks_demo::ObjectLook& object : scene_.objects()) {
+        const std::uint32_t count = lks_asset_vertex_count(lks_object_asset(world, object.id));
+        for (std::uint32_t i = 0; i < points_per_object; ++i) {
+            const auto vertex =
+                static_cast<std::uint32_t>(std::uint64_t{count - 1} * i / (points_per_object - 1));
+            lks_raw_position raw{};
+            lks_vec3 position{};
+            lks_object_raw_positions(world, object.id, vertex, 1, &raw);
+            lks_object_positions(world, object.id, vertex, 1, &position);
+            state_.points.push_back(
+                {object.name, vertex,
+                 std::to_string(raw.x) + " " + std::to_string(raw.y) + " " + std::to_string(raw.z),
+                 decimal(position)});
+        }
+    }
+}
+
+} // namespace lks_golden

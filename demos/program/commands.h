@@ -1,0 +1,50 @@
+// The program's commands, each with its options. They return the exit code: 0, 1 (the work failed), 2 (bad
+// use).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lks_program {
+
+struct ListOptions {
+    bool json = false;
+};
+
+struct RunOptions {
+    std::string scene;
+    std::uint32_t ticks = 0; // 0: the scene's own
+    std::uint32_t frame_rate = 0;
+    std::string schedule; // a file of nanoseconds a frame
+    std::string offset_km;
+    std::uint32_t hash_every = 0; // 0: only the last
+    bool json = false;
+};
+
+struct RenderOptions {
+    std::vector<std::string> scenes;
+    bool all = false;
+    std::uint32_t ticks = 0;
+    std::uint32_t frames_per_second = 10;
+    std::string size = "1280x720";
+    std::string out = "out";
+    std::string gl = "auto";
+};
+
+struct GoldenOptions {
+    std::vector<std::string> scenes; // empty: all
+    bool states_only = false;
+    bool images_only = false;
+    std::string golden; // empty: golden/ here, or where the program was built
+    std::string out = "out/check";
+    std::string gl = "auto";
+};
+
+int list(const ListOptions& options);
+int run(const RunOptions& options);
+int render(const RenderOptions& options);
+int check(const GoldenOptions& options);
+int bless(const GoldenOptions& options);
+
+} // namespace lks_program

@@ -1,0 +1,71 @@
+#include "scenes/nearest_name.h"
+#include "scenes/scene.h"
+#include "scenes/scene_list.h"
+
+namespace lks_demo {
+namespace {
+
+struct Entry {
+    SceneInfo info;
+    std::unique_ptr<Scene> (*make)(const SceneInfo& info);
+};
+
+const std::vector<Entry>& entries() {
+    static const std::vector<Entry> all = {
+        {{"cloth_hang",
+          "A cloth of 64 x 64 vertices swings down from two corners that come together",
+          420,
+          240,
+          {60, 200}},
+         make_cloth_hang},
+        {{"cloth_drape", "A cloth falls on a sphere and a box and slides", 360, 240, {50, 180}},
+         make_cloth_drape},
+        {{"flag", "A pennant, an irregular triangle mesh, in a gusty wind", 480, 240, {90, 230}}, make_flag},
+        {{"rope_bridge", "A roller runs over a bridge of ropes and back", 600, 300, {130, 290}},
+         make_rope_bridge},
+        {{"rope_wrap", "Ropes swing and fall around capsules", 420, 240, {70, 220}}, make_rope_wrap},
+        {{"curtain_rings", "A pair of curtains on moving rings opens and closes", 600, 300, {60, 240}},
+         make_curtain_rings},
+    };
+    return all;
+}
+
+const Entry* find_entry(const std::string& name) {
+    for (const Entry& entry : entries()) {
+        if (name == entry.info.name) {
+            return &entry;
+        }
+    }
+    return nullptr;
+}
+
+} // namespace
+
+const std::vector<std::string>& scene_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const Entry& entry : entries()) {
+            all.emplace_back(entry.info.name);
+        }
+        return all;
+    }();
+    return names;
+}
+
+const SceneInfo* find_scene_info(const std::string& name) {
+    const Entry* entry = find_entry(name);
+    return entry != nullptr ? &entry->info : nullptr;
+}
+
+std::unique_ptr<Scene> create_scene(const std::string& name, const SceneOptions& options,
+                                    std::string& error) {
+    const Entry* entry = find_entry(name);
+    if (entry == nullptr) {
+        error = "There is no scene '" + name + "'; did you mean '" + nearest_name(name, scene_names()) + "'?";
+        return nullptr;
+    }
+    std::unique_ptr<Scene> scene = entry->make(entry->info);
+    return scene->create(options, error) ? std::move(scene) : nullptr;
+}
+
+} // namespace lks_demo

@@ -1,0 +1,17 @@
+// One function a scene; registry.cpp names them.
+#pragma once
+
+#include <memory>
+
+#include "scenes/scene.h"
+
+namespace lks_demo {
+
+std::unique_ptr<Scene> make_cloth_hang(const SceneInfo& info);
+std::unique_ptr<Scene> make_cloth_drape(const SceneInfo& info);
+std::unique_ptr<Scene> make_flag(const SceneInfo& info);
+std::unique_ptr<Scene> make_rope_bridge(const SceneInfo& info);
+std::unique_ptr<Scene> make_rope_wrap(const SceneInfo& info);
+std::unique_ptr<Scene> make_curtain_rings(const SceneInfo& info);
+
+} // namespace lks_demo

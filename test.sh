@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Builds everything and runs all tests through ctest.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+usage() {
+    cat <<'TEXT'
+usage: ./test.sh [--portability] [--long] [-- CTEST-OPTIONS...]
+
+Installs what is missing, builds into build/ and runs all tests: the SDK's own, the golden states and images,
+g++ and clang at -O0 and -O3, address, undefined-behaviour and thread sanitizers, programs outside the tree
+that link the installed library, and the checks of the sources.
+
+  --portability  also the golden states on aarch64, 32-bit arm, s390x and Windows, under qemu-user and wine
+  --long         also the exhaustive sweeps
+  --help         this text
+
+  ./test.sh -- -L determinism      only the tests with this label
+  ./test.sh -- -R '^unit\.'        only the tests whose name matches
+TEXT
+}
+
+sets=(build render test)
+portability=OFF
+while [ $# -gt 0 ]; do
+    case "$1" in
+        --portability) portability=ON; sets+=(portability) ;;
+        --long) export LOCKSTITCH_LONG=1 ;;
+        --help | -h) usage; exit 0 ;;
+        --) shift; break ;;
+        *) echo "The option '$1' does not exist; ./test.sh --help lists them." >&2; exit 2 ;;
+    esac
+    shift
+done
+
+scripts/dependencies.sh "${sets[@]}"
+cmake --preset release -DLOCKSTITCH_TESTS=ON -DLOCKSTITCH_PORTABILITY="$portability" --log-level=WARNING
+cmake --build build
+exec ctest --test-dir build --output-on-failure --no-tests=error -j "$(nproc)" "$@"

@@ -1,0 +1,199 @@
+// The method as the papers write it, in floating point: what the integer solver is measured against.
+//
+// Scalar = double is the reference; Scalar = float is the twin that shows what the usual format would have
+// given. Both take the same constraints in the same order, the same substeps, the same clamp and one
+// multiplier a constraint, and differ from the SDK in nothing but the numbers. The coefficients are those of
+// docs/numbers.md: c, r, γ' and s in [0, 1], and the multiplier carried as a length Λ = D·λ.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "reference/model.h"
+
+namespace reference {
+
+template <typename Scalar>
+struct Vector3 {
+    Scalar x = 0, y = 0, z = 0;
+
+    Vector3() = default;
+    Vector3(Scalar x_, Scalar y_, Scalar z_) : x(x_), y(y_), z(z_) {}
+    explicit Vector3(const support::Vector& v)
+        : x(static_cast<Scalar>(v.x)), y(static_cast<Scalar>(v.y)), z(static_cast<Scalar>(v.z)) {}
+
+    Vector3 operator+(const Vector3& b) const { return {x + b.x, y + b.y, z + b.z}; }
+    Vector3 operator-(const Vector3& b) const { return {x - b.x, y - b.y, z - b.z}; }
+    Vector3 operator*(Scalar f) const { return {x * f, y * f, z * f}; }
+    Scalar dot(const Vector3& b) const { return x * b.x + y * b.y + z * b.z; }
+    Scalar length() const { return std::sqrt(dot(*this)); }
+    support::Vector widened() const { return {x, y, z}; }
+};
+
+struct Settings {
+    double tick_rate_hz = 60;
+    int substeps = 20;
+    int iterations = 1;
+    support::Vector gravity{0, -9.81, 0};
+    double linear_damping = 0;
+};
+
+template <typename Scalar>
+class Solver {
+public:
+    using Vec = Vector3<Scalar>;
+
+    // `place` moves the scene away from the origin, where float32 has fewer bits left.
+    Solver(const Model& model, const Settings& settings, const support::Vector& place = {})
+        : settings_(settings), h_(static_cast<Scalar>(1 / (settings.tick_rate_hz * settings.substeps))),
+          place_(place), edges_(model.edges) {
+        for (std::size_t i = 0; i < model.positions.size(); ++i) {
+            positions_.push_back(Vec(model.positions[i] + place));
+            velocities_.emplace_back();
+            inverse_masses_.push_back(static_cast<Scalar>(1 / model.masses[i]));
+        }
+        masses_ = model.masses;
+        multipliers_.resize(edges_.size());
+        previous_ = positions_;
+        targets_ = positions_;
+    }
+
+    void pin(std::size_t particle) {
+        inverse_masses_[particle] = 0;
+        targets_[particle] = positions_[particle];
+    }
+    void set_target(std::size_t particle, const support::Vector& target) {
+        targets_[particle] = Vec(target + place_);
+    }
+    void set_velocity(std::size_t particle, const support::Vector& velocity) {
+        velocities_[particle] = Vec(velocity);
+    }
+
+    void tick(int count = 1) {
+        for (int i = 0; i < count; ++i) {
+            prepare();
+            const std::vector<Vec> start = positions_;
+            for (int substep = 1; substep <= settings_.substeps; ++substep) {
+                predict(start, static_cast<Scalar>(substep) / static_cast<Scalar>(settings_.substeps));
+                std::fill(multipliers_.begin(), multipliers_.end(), Scalar(0));
+                for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
+                    for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
+                        project(edge);
+                    }
+                }
+                for (std::size_t p = 0; p < positions_.size(); ++p) {
+                    velocities_[p] = (positions_[p] - previous_[p]) * (1 / h_);
+                }
+            }
+        }
+    }
+
+    // In metres, with the place taken off again.
+    support::Vector position(std::size_t particle) const { return positions_[particle].widened() - place_; }
+    std::size_t size() const { return positions_.size(); }
+
+    double kinetic_energy() const {
+        double energy = 0;
+        for (std::size_t p = 0; p < positions_.size(); ++p) {
+            const support::Vector v = velocities_[p].widened();
+            energy += inverse_masses_[p] == 0 ? 0 : 0.5 * masses_[p] * v.dot(v);
+        }
+        return energy;
+    }
+
+    // The largest |length / rest - 1|; infinite as soon as a number is none.
+    double worst_stretch() const {
+        double worst = 0;
+        for (const Edge& edge : edges_) {
+            const double length = (positions_[edge.a].widened() - positions_[edge.b].widened()).length();
+            const double stretch = std::abs(length / edge.rest - 1);
+            if (!std::isfinite(stretch)) {
+                return std::numeric_limits<double>::infinity();
+            }
+            worst = std::max(worst, stretch);
+        }
+        return worst;
+    }
+
+    // Newtons, tension positive: -λ/h² of the last substep.
+    double force(std::size_t edge) const {
+        return -static_cast<double>(multipliers_[edge] / (coefficients_[edge].d * h_ * h_));
+    }
+
+private:
+    struct Coefficients {
+        Scalar c, r, damping, s_a, s_b, d;
+    };
+
+    // XPBD eq. 26 with every coefficient in [0, 1]. Anew each tick, since pins change the masses.
+    void prepare() {
+        coefficients_.clear();
+        for (const Edge& edge : edges_) {
+            const Scalar w_a = inverse_masses_[edge.a];
+            const Scalar w_b = inverse_masses_[edge.b];
+            const Scalar compliance = static_cast<Scalar>(edge.compliance) / (h_ * h_);
+            const Scalar gamma =
+                static_cast<Scalar>(edge.compliance) * static_cast<Scalar>(edge.damping) / h_;
+            const Scalar d = w_a + w_b + compliance / (1 + gamma);
+            Coefficients k{};
+            k.c = 1 / (1 + gamma);
+            k.damping = gamma / (1 + gamma);
+            k.d = d;
+            if (d > 0) {
+                k.r = compliance / ((1 + gamma) * d);
+                k.s_a = w_a / d;
+                k.s_b = w_b / d;
+            }
+            coefficients_.push_back(k);
+        }
+    }
+
+    void predict(const std::vector<Vec>& start, Scalar share) {
+        previous_ = positions_;
+        const Vec gravity = Vec(settings_.gravity) * (h_ * h_);
+        const Scalar kept = 1 - static_cast<Scalar>(settings_.linear_damping) * h_;
+        for (std::size_t p = 0; p < positions_.size(); ++p) {
+            if (inverse_masses_[p] == 0) {
+                positions_[p] = start[p] + (targets_[p] - start[p]) * share;
+            } else {
+                positions_[p] = positions_[p] + velocities_[p] * (h_ * kept) + gravity;
+            }
+        }
+    }
+
+    void project(std::size_t index) {
+        const Edge& edge = edges_[index];
+        const Coefficients& k = coefficients_[index];
+        const Vec difference = positions_[edge.a] - positions_[edge.b];
+        const Scalar length = difference.length();
+        if (!(length > 0) || !(k.d > 0)) {
+            return;
+        }
+        Scalar change = -k.c * (length - static_cast<Scalar>(edge.rest)) - k.r * multipliers_[index];
+        if (k.damping > 0) {
+            const Vec moved = difference - (previous_[edge.a] - previous_[edge.b]);
+            change -= k.damping * difference.dot(moved) / length;
+        }
+        // An edge near zero length may at most double per projection.
+        const Scalar relative = std::clamp(change / length, Scalar(-1), Scalar(1));
+        multipliers_[index] += relative * length;
+        positions_[edge.a] = positions_[edge.a] + difference * (k.s_a * relative);
+        positions_[edge.b] = positions_[edge.b] - difference * (k.s_b * relative);
+    }
+
+    Settings settings_;
+    Scalar h_;
+    support::Vector place_;
+    std::vector<Edge> edges_;
+    std::vector<double> masses_;
+    std::vector<Scalar> inverse_masses_;
+    std::vector<Vec> positions_, previous_, velocities_, targets_;
+    std::vector<Scalar> multipliers_;
+    std::vector<Coefficients> coefficients_;
+};
+
+} // namespace reference

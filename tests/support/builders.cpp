@@ -1,0 +1,115 @@
+#include "support/builders.h"
+
+#include <cmath>
+
+namespace support {
+
+Asset Chain::build(const lks_allocator& allocator) const {
+    std::vector<double> points;
+    const Vector step = direction * (length / segments / direction.length());
+    for (std::uint32_t i = 0; i <= segments; ++i) {
+        const Vector point = step * i;
+        points.insert(points.end(), {point.x, point.y, point.z});
+    }
+    const std::vector<double> masses(segments + 1, particle_mass);
+    lks_rope_def def = lks_default_rope_def();
+    def.segments = 0;
+    def.length = 0;
+    def.point_count = segments + 1;
+    def.points = points.data();
+    def.mass = 0;
+    def.linear_density = 0;
+    def.vertex_masses = masses.data();
+    def.stretch = stretch;
+    def.bend = off;
+    def.particle_radius = 0;
+    def.allocator = allocator;
+    return Asset(def);
+}
+
+Asset loose_points(const std::vector<Vector>& points, const std::vector<double>& masses, double radius) {
+    std::vector<double> coordinates;
+    for (const Vector& point : points) {
+        coordinates.insert(coordinates.end(), {point.x, point.y, point.z});
+    }
+    lks_rope_def def = lks_default_rope_def();
+    def.segments = 0;
+    def.length = 0;
+    def.point_count = static_cast<std::uint32_t>(points.size());
+    def.points = coordinates.data();
+    def.mass = 0;
+    def.linear_density = 0;
+    def.vertex_masses = masses.data();
+    def.stretch = off;
+    def.bend = off;
+    def.particle_radius = radius;
+    def.friction = 1;
+    return Asset(def);
+}
+
+lks_cloth_def Net::def() const {
+    lks_cloth_def result = lks_default_cloth_def();
+    result.columns = side;
+    result.rows = side;
+    result.width = width;
+    result.height = width;
+    result.mass = 0;
+    result.area_density = 0;
+    result.vertex_masses = nullptr;
+    result.stretch = stretch;
+    result.shear = shear;
+    result.bend = bend;
+    result.particle_radius = radius;
+    result.friction = friction;
+    return result;
+}
+
+Asset Net::build(const lks_allocator& allocator) const {
+    const std::vector<double> masses(std::size_t{side} * side, particle_mass);
+    lks_cloth_def result = def();
+    result.vertex_masses = masses.data();
+    result.allocator = allocator;
+    return Asset(result);
+}
+
+Asset Net::build(const std::vector<double>& masses) const {
+    lks_cloth_def result = def();
+    result.vertex_masses = masses.data();
+    return Asset(result);
+}
+
+lks_cloth_def Mesh::def() const {
+    lks_cloth_def result = lks_default_cloth_def();
+    result.columns = 0;
+    result.rows = 0;
+    result.width = 0;
+    result.height = 0;
+    result.vertex_count = static_cast<std::uint32_t>(vertices.size() / 3);
+    result.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
+    result.vertices = vertices.data();
+    result.triangles = triangles.data();
+    return result;
+}
+
+Mesh wavy_mesh(std::uint32_t side, double width) {
+    Mesh mesh;
+    for (std::uint32_t row = 0; row < side; ++row) {
+        for (std::uint32_t column = 0; column < side; ++column) {
+            // Exact in binary where side - 1 is a power of two: the same doubles in every rounding mode.
+            const double u = static_cast<double>(column) / (side - 1);
+            const double v = static_cast<double>(row) / (side - 1);
+            mesh.vertices.insert(mesh.vertices.end(), {width * (u - 0.5) + 0.125 * v * v,
+                                                       width * (0.5 - v) + 0.0625 * u * u, 0.25 * u * v});
+        }
+    }
+    for (std::uint32_t row = 0; row + 1 < side; ++row) {
+        for (std::uint32_t column = 0; column + 1 < side; ++column) {
+            const std::uint32_t corner = row * side + column;
+            mesh.triangles.insert(mesh.triangles.end(), {corner, corner + side, corner + 1});
+            mesh.triangles.insert(mesh.triangles.end(), {corner + 1, corner + side, corner + side + 1});
+        }
+    }
+    return mesh;
+}
+
+} // namespace support

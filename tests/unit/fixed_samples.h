@@ -1,0 +1,122 @@
+// Samples for the tests of fixed/: a repeatable generator that favours every magnitude alike, edge values,
+// and counters that keep doctest's macros out of loops of ten million.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace lks::test {
+
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : state_(seed) {}
+
+    // Weyl sequence and finaliser (Steele, Lea, Flood: SplitMix).
+    std::uint64_t bits() {
+        state_ += 0x9e3779b97f4a7c15u;
+        std::uint64_t z = state_;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
+    }
+
+    std::uint64_t below(std::uint64_t n) { return bits() % n; }
+
+    // 0 to 2^width - 1, every bit length equally likely; one in sixteen is next to a power of two.
+    std::uint64_t any_magnitude(int width = 64) {
+        const int length = static_cast<int>(below(static_cast<std::uint64_t>(width) + 1));
+        if (length == 0)
+            return 0;
+        const std::uint64_t top = std::uint64_t{1} << (length - 1);
+        const std::uint64_t b = bits();
+        if ((b & 15) == 0)
+            return (top - 1) + ((b >> 4) & 1);
+        return top | (bits() & (top - 1));
+    }
+
+    // |result| < 2^width, both signs.
+    std::int64_t any_signed(int width = 63) {
+        const std::int64_t size = static_cast<std::int64_t>(any_magnitude(width));
+        return (bits() & 1) != 0 ? -size : size;
+    }
+
+private:
+    std::uint64_t state_;
+};
+
+inline bool long_run() {
+    const char* value = std::getenv("LOCKSTITCH_LONG");
+    return value != nullptr && std::strcmp(value, "1") == 0;
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define LKS_TEST_SANITISED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define LKS_TEST_SANITISED 1
+#endif
+#endif
+
+// Ten million of each. Unoptimised and sanitised builds, which are there to find other things, take a tenth.
+inline std::uint64_t sample_count() {
+#if (defined(__OPTIMIZE__) || defined(NDEBUG)) && !defined(LKS_TEST_SANITISED)
+    return 10'000'000;
+#else
+    return 1'000'000;
+#endif
+}
+
+inline constexpr std::uint64_t edges_u64[] = {0,
+                                              1,
+                                              2,
+                                              3,
+                                              0x7fffffff,
+                                              0x80000000,
+                                              0xffffffff,
+                                              0x100000000,
+                                              0x100000001,
+                                              0x7fffffffffffffff,
+                                              0x8000000000000000,
+                                              0x8000000000000001,
+                                              0xfffffffeffffffff,
+                                              0xffffffff00000000,
+                                              0xfffffffffffffffe,
+                                              0xffffffffffffffff};
+
+// Counts, remembers the first failure's inputs, and the largest error.
+struct Tally {
+    std::uint64_t failures = 0;
+    std::uint64_t first[4] = {};
+    long double worst = 0;
+
+    void expect(bool good, std::uint64_t a = 0, std::uint64_t b = 0, std::uint64_t c = 0,
+                std::uint64_t d = 0) {
+        if (good)
+            return;
+        if (failures++ == 0) {
+            first[0] = a;
+            first[1] = b;
+            first[2] = c;
+            first[3] = d;
+        }
+    }
+
+    void measure(long double error) {
+        if (error < 0)
+            error = -error;
+        if (error > worst)
+            worst = error;
+    }
+};
+
+} // namespace lks::test
+
+// Which inputs failed first stands in the message.
+#define LKS_CHECK_TALLY(tally)                                                                               \
+    do {                                                                                                     \
+        INFO("first failure: ", (tally).first[0], " ", (tally).first[1], " ", (tally).first[2], " ",         \
+             (tally).first[3]);                                                                              \
+        CHECK((tally).failures == 0);                                                                        \
+    } while (false)

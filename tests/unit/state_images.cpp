@@ -1,0 +1,141 @@
+// Images with wrong values behind a right checksum: what a cheat or a bug would make. Each is refused without
+// a trace or gives a world that works; none crashes.
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "state/hash.h"
+#include "state/image.h"
+#include "support/builders.h"
+
+using namespace support;
+
+namespace {
+
+struct Small {
+    Asset chain = Chain().build();
+    World world{world_def(60, 2)};
+    lks_object_id object{};
+
+    Small() {
+        // A free slot between two used ones, forces, pins, and every shape.
+        lks_object_def def = object_def(chain, at(1, 2, 3));
+        def.record_forces = 1;
+        object = world.add(def);
+        const lks_object_id gap = world.add(chain, at(0, 0, 0));
+        world.add(chain, at(0, 1, 0));
+        REQUIRE(lks_world_remove_object(world, gap) == LKS_OK);
+        world.pin(object, 0);
+        world.pin(object, 7);
+        for (std::uint32_t shape = 0; shape < 4; ++shape) {
+            lks_collider_def collider = lks_default_collider_def();
+            collider.shape = shape;
+            collider.half_length = fixed(0.5);
+            collider.half_extents = fixed(1, 1, 1);
+            world.add(collider);
+        }
+        world.step(3);
+    }
+};
+
+void put_u64(Image& image, std::size_t place, std::uint64_t value) {
+    for (int i = 0; i < 8; ++i) {
+        image.bytes()[place + static_cast<std::size_t>(i)] = static_cast<unsigned char>(value >> (8 * i));
+    }
+}
+
+void put_right_checksum(Image& image) {
+    lks::Hash hash;
+    hash.add_bytes(image.bytes() + lks::image_checked_from, image.size() - lks::image_checked_from);
+    put_u64(image, 24, hash.finish());
+}
+
+// Loads it; where it is refused nothing may have changed, and where it is not the world must go on.
+bool survives(Small& small, const Image& image, std::uint64_t& accepted) {
+    const std::uint64_t before = small.world.hash();
+    const lks_result result = lks_world_load(small.world, image.data(), image.size());
+    if (result == LKS_OK) {
+        ++accepted;
+        const bool same_image = small.world.save() == image;
+        small.world.step(2);
+        (void)small.world.hash();
+        return same_image;
+    }
+    return (result == LKS_ERROR_CORRUPT_IMAGE || result == LKS_ERROR_FOREIGN_IMAGE) &&
+           small.world.hash() == before && lks_world_last_error(small.world)->message[0] != '\0';
+}
+
+} // namespace
+
+TEST_CASE("the checksum of an image is the one that tests compute") {
+    Small small;
+    const Image image = small.world.save();
+    Image copy = image;
+    put_right_checksum(copy);
+    CHECK(copy == image);
+}
+
+TEST_CASE("any 64-bit word of an image may be anything behind a right checksum") {
+    Small small;
+    const Image good = small.world.save();
+    Random random(4);
+    std::uint64_t accepted = 0;
+    std::uint64_t tried = 0;
+    bool all_survived = true;
+    for (std::size_t place = lks::image_checked_from; place + 8 <= good.size(); place += 8) {
+        for (const std::uint64_t value :
+             {std::uint64_t{0}, ~std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1} << 63,
+              ~std::uint64_t{0} >> 1, std::uint64_t{0xffffffff}, std::uint64_t{1} << 32, random.next()}) {
+            Image bad = good;
+            put_u64(bad, place, value);
+            put_right_checksum(bad);
+            const bool survived = survives(small, bad, accepted);
+            if (!survived) {
+                MESSAGE("word at byte " << place << " set to " << value);
+            }
+            all_survived = all_survived && survived;
+            ++tried;
+        }
+    }
+    CHECK(all_survived);
+    MESSAGE(accepted << " of " << tried << " changed images hold a possible state");
+    CHECK(accepted < tried);
+    CHECK(accepted > 0);
+    CHECK(lks_world_load(small.world, good.data(), good.size()) == LKS_OK);
+    CHECK(small.world.save() == good);
+}
+
+TEST_CASE("images cut anywhere are refused behind a right checksum and size") {
+    Small small;
+    const Image good = small.world.save();
+    std::uint64_t accepted = 0;
+    for (std::size_t size = lks::image_header_size; size < good.size(); size += 4) {
+        Image part(size);
+        std::memcpy(part.data(), good.data(), size);
+        put_u64(part, 16, size);
+        put_right_checksum(part);
+        CHECK(survives(small, part, accepted));
+    }
+    CHECK(accepted == 0);
+}
+
+TEST_CASE("images with several random changes behind a right checksum are survived") {
+    Small small;
+    const Image good = small.world.save();
+    Random random(8);
+    std::uint64_t accepted = 0;
+    bool all_survived = true;
+    for (int i = 0; i < 3000; ++i) {
+        Image bad = good;
+        const auto changes = random.between(1, 4);
+        for (std::int64_t c = 0; c < changes; ++c) {
+            const auto place = static_cast<std::size_t>(
+                random.between(lks::image_checked_from, static_cast<std::int64_t>(good.size()) - 1));
+            bad.bytes()[place] = static_cast<unsigned char>(random.next());
+        }
+        put_right_checksum(bad);
+        all_survived = survives(small, bad, accepted) && all_survived;
+    }
+    CHECK(all_survived);
+}
