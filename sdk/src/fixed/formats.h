@@ -1,4 +1,5 @@
-// The number formats of the solver, each with its name. docs/numbers.md has the same table with ranges and edges.
+// The number formats of the solver, each with its name. docs/numbers.md has the same table with ranges and
+// edges.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,8 @@ namespace lks {
 // World: lks_fixed. Metres, m/s, N·s and plain factors at the API; object origins.
 inline constexpr int world_fraction_bits = 40;
 
-// Coordinate: a particle relative to its object's origin, metres. Velocities are differences of coordinates, in metres
-// a substep, in the same unit: exact.
+// Coordinate: a particle relative to its object's origin, metres. Velocities are differences of coordinates,
+// in metres a substep, in the same unit: exact.
 inline constexpr int coordinate_fraction_bits = 56;
 inline constexpr int coordinate_from_world_shift = coordinate_fraction_bits - world_fraction_bits;
 inline constexpr std::int64_t coordinate_one = std::int64_t{1} << coordinate_fraction_bits;
@@ -22,11 +23,12 @@ inline constexpr std::int64_t substep_motion_limit = std::int64_t{1} << 60;
 inline constexpr int unit_fraction_bits = 31;
 inline constexpr std::uint32_t unit_one = std::uint32_t{1} << unit_fraction_bits;
 
-// Direction and gain: components of unit vectors and rotations, and a projection's relative correction in [-1, 1].
+// Direction and gain: components of unit vectors and rotations, and a projection's relative correction in
+// [-1, 1].
 inline constexpr int direction_fraction_bits = 30;
 inline constexpr std::int32_t direction_one = std::int32_t{1} << direction_fraction_bits;
 
 // World positions of origins and colliders stay within ±8,388,000 m.
 inline constexpr std::int64_t world_position_limit = std::int64_t{8388000} << world_fraction_bits;
 
-}  // namespace lks
+} // namespace lks

@@ -5,8 +5,9 @@
 namespace lks {
 
 Object::Object(const lks_allocator& allocator, const lks_asset& asset, const Coefficients& shared)
-    : particles(allocator), multipliers(allocator), previous(allocator), pin_starts(allocator),
-      asset_(&asset), shared_(&shared), own_(allocator), pins_(allocator), pinned_particles_(allocator) {
+    : particles(allocator), multipliers(allocator), recorded_pins(allocator), previous(allocator),
+      pin_starts(allocator), asset_(&asset), shared_(&shared), own_(allocator), pins_(allocator),
+      pinned_particles_(allocator) {
     retain_asset(asset_);
 }
 
@@ -40,7 +41,8 @@ bool Object::reserve_pins(std::size_t pin_count) {
     // Room for twice as many, so that pinning one after the other does not allocate each time.
     const std::size_t wanted = std::min<std::size_t>(std::max<std::size_t>(2 * pin_count, 4), count());
     const std::size_t capacity = pin_count <= pins_.capacity() ? pins_.capacity() : wanted;
-    if (!pins_.reserve(capacity) || !pinned_particles_.reserve(capacity) || !pin_starts.reserve(capacity)) {
+    if (!pins_.reserve(capacity) || !pinned_particles_.reserve(capacity) || !pin_starts.reserve(capacity) ||
+        (record_forces && !recorded_pins.reserve(capacity))) {
         return false;
     }
     if (!owns_coefficients_) {
@@ -79,6 +81,16 @@ void Object::follow_pins(const StepRate& rate) {
     }
     for (const Pin& pin : pins_) {
         own_.update_particle(*asset_, rate, pinned(), pin.particle);
+    }
+}
+
+void Object::record_pins() {
+    if (!record_forces) {
+        return;
+    }
+    recorded_pins.clear();
+    for (const std::uint32_t particle : pinned_particles_) {
+        recorded_pins.push_reserved(particle);
     }
 }
 

@@ -54,6 +54,8 @@ public:
     // Pins are kept in ascending order of particle.
     const Pin* find_pin(std::uint32_t particle) const;
     Pin* find_pin(std::uint32_t particle);
+    // Takes down which particles are pinned in the tick that begins.
+    void record_pins();
     PinnedParticles pinned() const { return {pinned_particles_.data(), pinned_particles_.size()}; }
     const Array<Pin>& pins() const { return pins_; }
     // Memory for `pin_count` pins and for coefficients of its own. False: none left, nothing changed.
@@ -88,6 +90,10 @@ public:
     bool record_forces = false;
     Array<std::int64_t> particles;   // x, y, z, then the starts of x, y, z: six arrays of count(), Coordinate
     Array<std::int64_t> multipliers; // Λ by constraint, Coordinate; state only where forces are recorded
+
+    // Where forces are recorded: the particles that were pinned in the last tick, whose forces multipliers
+    // are.
+    Array<std::uint32_t> recorded_pins;
 
     // For views.
     Array<std::int64_t> previous; // x, y, z at the tick before; empty where not wanted

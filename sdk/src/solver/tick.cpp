@@ -31,6 +31,7 @@ public:
         follow_object(object_, bounds, world_.counters);
         keep_previous();
         begin_pin_motion(object_);
+        object_.record_pins();
         find_candidates(bounds);
         for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
             run_substep(substep);

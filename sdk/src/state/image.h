@@ -44,13 +44,14 @@ struct ImageObject {
     std::uint32_t vertex_count;
     std::uint32_t record_forces;
     std::uint32_t pin_count;
-    std::uint32_t constraint_count; // 0 unless forces are recorded
+    std::uint32_t constraint_count;   // 0 unless forces are recorded
+    std::uint64_t recorded_pin_count; // 0 unless forces are recorded
     std::int64_t gravity_factor;
     std::int64_t linear_damping;
     fixed::Vec3 origin;
 };
 
-inline constexpr std::size_t image_object_size = 8 + 16 + 16 + 24;
+inline constexpr std::size_t image_object_size = 8 + 16 + 8 + 16 + 24;
 inline constexpr std::size_t image_collider_size = 8 + 5 * 8 + 2 * 8 + 2 * 24 + 2 * 16;
 
 std::size_t image_size(const lks_world& world);

@@ -53,6 +53,7 @@ ImageObject read_object(ByteReader& in) {
     object.record_forces = in.u32();
     object.pin_count = in.u32();
     object.constraint_count = in.u32();
+    object.recorded_pin_count = in.u64();
     object.gravity_factor = in.i64();
     object.linear_damping = in.i64();
     object.origin = read_vector(in);
@@ -237,23 +238,38 @@ private:
                        : corrupt(world_, Sentence() << "The image ends inside object " << slot << ".");
         }
         if (!object_is_valid(image, *known->asset) || !pins_are_valid(in, image) ||
-            !in.skip_i64(std::size_t{6} * image.vertex_count + image.constraint_count)) {
+            !in.skip_i64(std::size_t{6} * image.vertex_count + image.constraint_count) ||
+            !recorded_pins_are_valid(in, image)) {
             return corrupt(world_, Sentence()
                                        << "A value of object " << slot << " in the image is out of range.");
         }
         Object* object = stage(slot, *known, image);
-        if (object == nullptr || !object->reserve_pins(image.pin_count)) {
+        if (object == nullptr ||
+            !object->reserve_pins(std::max<std::size_t>(image.pin_count, image.recorded_pin_count))) {
             return world_.fail_out_of_memory("an image's objects");
         }
         return LKS_OK;
     }
 
+    static bool recorded_pins_are_valid(ByteReader& in, const ImageObject& image) {
+        std::uint64_t next = 0; // the least that may follow: they ascend
+        for (std::uint64_t i = 0; i < image.recorded_pin_count; ++i) {
+            const std::uint64_t particle = in.u64();
+            if (particle < next || particle >= image.vertex_count) {
+                return false;
+            }
+            next = particle + 1;
+        }
+        return in.complete();
+    }
+
     static bool object_is_valid(const ImageObject& image, const lks_asset& asset) {
         return image.vertex_count == asset.vertex_count() && image.record_forces <= 1 &&
                image.constraint_count == (image.record_forces != 0 ? asset.constraint_count() : 0) &&
-               image.pin_count <= image.vertex_count && lks::within(image.gravity_factor, LKS_FIXED(100)) &&
-               image.linear_damping >= 0 && image.linear_damping <= LKS_FIXED(1000) &&
-               within(image.origin, world_position_limit);
+               image.pin_count <= image.vertex_count &&
+               image.recorded_pin_count <= (image.record_forces != 0 ? image.vertex_count : 0) &&
+               lks::within(image.gravity_factor, LKS_FIXED(100)) && image.linear_damping >= 0 &&
+               image.linear_damping <= LKS_FIXED(1000) && within(image.origin, world_position_limit);
     }
 
     static bool pins_are_valid(ByteReader& in, const ImageObject& image) {
@@ -306,6 +322,10 @@ private:
         in.i64_array(object.particles.data(), object.particles.size());
         if (object.record_forces) {
             in.i64_array(object.multipliers.data(), object.multipliers.size());
+            object.recorded_pins.clear();
+            for (std::uint64_t i = 0; i < image.recorded_pin_count; ++i) {
+                object.recorded_pins.push_reserved(static_cast<std::uint32_t>(in.u64()));
+            }
         }
         // There is no tick before for the view to start from.
         std::copy_n(object.particles.data(), object.previous.size(), object.previous.data());

@@ -19,7 +19,8 @@ void write_rotation(ByteWriter& out, const fixed::Rotation& value) {
 
 std::size_t object_size(const Object& object) {
     return image_object_size + object.pins().size() * image_pin_size + object.particles.bytes() +
-           (object.record_forces ? object.multipliers.bytes() : 0);
+           (object.record_forces ? object.multipliers.bytes() : 0) +
+           object.recorded_pins.size() * sizeof(std::uint64_t);
 }
 
 void write_object(ByteWriter& out, const Object& object) {
@@ -28,6 +29,7 @@ void write_object(ByteWriter& out, const Object& object) {
     out.u32(object.record_forces ? 1 : 0);
     out.u32(static_cast<std::uint32_t>(object.pins().size()));
     out.u32(object.record_forces ? static_cast<std::uint32_t>(object.multipliers.size()) : 0);
+    out.u64(object.recorded_pins.size());
     out.i64(object.gravity_factor);
     out.i64(object.linear_damping);
     write_vector(out, object.origin);
@@ -38,6 +40,9 @@ void write_object(ByteWriter& out, const Object& object) {
     out.i64_array(object.particles.data(), object.particles.size());
     if (object.record_forces) {
         out.i64_array(object.multipliers.data(), object.multipliers.size());
+        for (const std::uint32_t particle : object.recorded_pins) {
+            out.u64(particle);
+        }
     }
 }
 

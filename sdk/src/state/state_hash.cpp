@@ -51,6 +51,7 @@ std::uint64_t hash_object(const Object& object) {
     hash.add_i64_array(object.particles.data(), object.particles.size());
     if (object.record_forces) {
         hash.add_i64_array(object.multipliers.data(), object.multipliers.size());
+        hash.add_u32_array(object.recorded_pins.data(), object.recorded_pins.size());
     }
     return hash.finish();
 }
