@@ -60,7 +60,7 @@ struct Cloth {
 struct Rope {
     std::vector<float> positions; // x, y, z a point, at least two points
     std::vector<float> rest_arc;  // metres from the first point at rest, one a point; empty: as it lies now.
-                                 // Given, the strands stretch with the rope instead of sliding along it
+                                  // Given, the strands stretch with the rope instead of sliding along it
     float radius = 0.02f;
     Colour colour = palette::hemp;
     Colour second_colour = palette::cream; // every strands-th strand, where tracer is above 0

@@ -1,7 +1,7 @@
 // The coefficients of distance constraints for one asset at one substep length: XPBD eq. 26 with everything
 // in [0, 1].
 //
-// With W = w_a + w_b, α̃ = α/h², γ = αβ/h and D = W + α̃/(1+γ), the multiplier is carried as a length Λ = D·λ:
+// With W = w_a + w_b, α̃ = α/h², γ = αβ/h and D = W + α̃/(1+γ), the multiplier is a length Λ = D·λ:
 //
 //     ΔΛ  = −c·C − r·Λ − γ'·n·(Δx_a − Δx_b)        c = 1/(1+γ)   r = α̃/((1+γ)D)   γ' = γ/(1+γ)
 //     Δx_a = s_a·n·ΔΛ,  Δx_b = −s_b·n·ΔΛ            s = w/D
