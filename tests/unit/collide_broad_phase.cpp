@@ -53,12 +53,27 @@ TEST_CASE("collide: whatever a substep pushes was a candidate of its tick") {
 
 TEST_CASE("collide: the frame's box rejects only what the full test rejects") {
     Dice dice(2);
-    int pushed = 0, skipped = 0;
-    for (int sample = 0; sample < 100000; ++sample) {
-        const ColliderState collider = random_collider(dice, 3);
-        Particle particle = Particle::at(dice.in_cube(4), dice.in_cube(2));
+    int pushed = 0, skipped = 0, swept = 0;
+    for (int sample = 0; sample < 200000; ++sample) {
+        ColliderState collider = random_collider(dice, 3);
+        const bool blade = sample % 2 == 0;
+        if (blade) {
+            // Turns away from what it has swept, with a slow particle: the box has to reach back for it.
+            collider = resting(box(2, 0.02L, 0.02L), dice.in_cube(1), dice.rotation(360));
+            const Point axis = rotated(lks::fixed::to_matrix(collider.rotation), {0, 1, 0});
+            collider.target_rotation = lks::fixed::normalise(
+                lks::fixed::multiply(degrees_about(axis, dice.between(5, 19)), collider.rotation));
+        }
+        Particle particle = Particle::at(dice.in_cube(3), dice.in_cube(blade ? 1e-3L : 2));
+        if (blade) {
+            const Real along = dice.between(-2, 2);
+            const Point in_collider = {along, 0, -along * dice.between(0, 0.3L)};
+            particle = Particle::at(to_point(collider.position) * 65536.0L +
+                                        rotated(lks::fixed::to_matrix(collider.rotation), in_collider),
+                                    dice.in_cube(1e-3L));
+        }
         Particle plain = particle;
-        const std::uint32_t substeps = 1 + dice.below(6);
+        const std::uint32_t substeps = blade ? 1 : 1 + dice.below(6);
         lks::ContactFrame frame = particle.frame(collider, 1, substeps);
         if (collider.shape.kind == LKS_SHAPE_PLANE) {
             continue;
@@ -70,11 +85,14 @@ TEST_CASE("collide: the frame's box rejects only what the full test rejects") {
         frame.box_high = {INT64_MAX, INT64_MAX, INT64_MAX};
         const Vec3 before = plain.position;
         plain.resolve(frame);
-        pushed += plain.position == before ? 0 : 1;
+        const bool moved = !(plain.position == before);
+        pushed += moved ? 1 : 0;
+        swept += moved && blade ? 1 : 0;
         REQUIRE(plain.position == particle.position);
         REQUIRE(plain.start == particle.start);
     }
     CHECK(pushed > 1500);
+    CHECK(swept > 1500);
     CHECK(skipped > 5000);
 }
 

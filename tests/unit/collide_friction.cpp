@@ -7,6 +7,7 @@ using namespace collide_test;
 using lks::ColliderState;
 using lks::ContactFrame;
 using lks::Shape;
+using lks::fixed::Vec3;
 
 namespace {
 
@@ -229,6 +230,18 @@ TEST_CASE("collide: what was inside at the start is put outside without gaining 
             REQUIRE(reference_distance(shape, local_end(frame, particle.position), 0.01L) >= -1e-7L);
             REQUIRE(to_point(particle.motion()).length() <= speed + 1e-9L);
         }
+    }
+}
+
+TEST_CASE("collide: recovering from an old overlap presses on nothing, so that it causes no friction") {
+    for (const Slope& slope : slopes) {
+        ColliderState collider = slope_collider(slope, 0, 0.8L, 0.8L);
+        Particle particle = Particle::at(placed(collider, {0, slope.top - 0.1L, 0}), {0, 0, 0});
+        particle.position = particle.position + coordinates({0.01L, 0, 0.02L});
+        const Vec3 motion = particle.motion();
+        particle.resolve(particle.frame(collider, 1, 1));
+        CHECK(particle.motion() == motion);
+        CHECK(std::fabs(to_point(particle.position).y - placed(collider, {0, slope.top, 0}).y) < 1e-12L);
     }
 }
 

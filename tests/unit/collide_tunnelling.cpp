@@ -285,3 +285,26 @@ TEST_CASE("collide: planes keep everything above, at rest, moving and turning") 
     }
     CHECK(hits > 5000);
 }
+
+TEST_CASE("collide: the largest shapes push from beyond the range of relative positions") {
+    // Within one substep the tip comes from 15 m above the particle, centre 75 m away, to 10 m below it.
+    ColliderState collider = resting(capsule(30, 30), {0, 75, 0});
+    collider.target_position = worlds({0, 50, 0});
+    Particle particle = Particle::at({0.5L, 0, 0}, {0, 0, 0});
+    const ContactFrame frame = particle.frame(collider, 1, 1);
+    REQUIRE(frame.reachable);
+    particle.resolve(frame);
+    CHECK(std::fabs(to_point(particle.position).y + 10) < 0.01L);
+    CHECK(reference_distance(frame.shape, local_end(frame, particle.position), 0) >= -tolerance);
+
+    // A particle at the range's edge, a centre on the other side: the difference has more than 64 bits.
+    collider = resting(capsule(30, 30), {0, -125, 0});
+    collider.target_position = worlds({0, -45, 0});
+    particle = Particle::at({0, 10, 0}, {0, 0, 0});
+    particle.start = coordinates({0, 63, 0});
+    const ContactFrame wide = particle.frame(collider, 1, 1);
+    REQUIRE(wide.reachable);
+    particle.resolve(wide);
+    CHECK(reference_distance(wide.shape, local_end(wide, particle.position), 0) >= -tolerance);
+    CHECK(to_point(particle.position).y > 14.9L);
+}

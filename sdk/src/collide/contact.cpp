@@ -145,6 +145,8 @@ fixed::Vec3 friction(const ContactFrame& frame, const Way& way, const Contact& c
     if (frame.static_friction == 0 || new_depth == 0) {
         return {0, 0, 0};
     }
+    // The new depth goes in first: what is left along the normal is then too small for the rounding of
+    // |normal| to matter.
     const fixed::Vec3 motion =
         saturating_subtract(way.end, way.start) + fixed::scale(contact.normal, new_depth);
     const fixed::Vec3 sliding = motion - fixed::scale(contact.normal, fixed::dot(contact.normal, motion));
