@@ -21,14 +21,14 @@ LKS_API lks_result lks_fixed_from_double(double value, lks_fixed* out);
 LKS_API lks_result lks_vec3_from_doubles(double x, double y, double z, lks_vec3* out);
 
 /* A rotation of `degrees` about an axis of any length > 0, by the right-hand rule. |degrees| ≤ 36000. Error
- * of each component: at most 2 units of 2^-30. Integer CORDIC; the axis is normalised in integers. */
+ * of each component: at most 2 units of 2^-30. Integers throughout, the axis is normalised too. */
 LKS_API lks_result lks_rotation_from_axis_angle(double axis_x, double axis_y, double axis_z, double degrees,
                                                 lks_rotation* out);
 
 /* The same from fixed-point values, for use while a game runs. The axis has any length > 0. */
 LKS_API lks_result lks_rotation_from_axis_angle_fixed(lks_vec3 axis, lks_fixed degrees, lks_rotation* out);
 
-/* sine and cosine of an angle in degrees, |degrees| ≤ 36000; error at most 2^-39. */
+/* sine and cosine of an angle in degrees, |degrees| ≤ 36000; the nearest unit but for a share of 2^-19. */
 LKS_API lks_result lks_sin_cos(lks_fixed degrees, lks_fixed* sine, lks_fixed* cosine);
 
 /* No rotation at the world's origin. */

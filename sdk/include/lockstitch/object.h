@@ -88,9 +88,9 @@ LKS_API lks_result lks_object_set_pin_target(lks_world* world, lks_object_id obj
 LKS_API uint32_t lks_object_pin_count(const lks_world* world, lks_object_id object);
 LKS_API uint32_t lks_object_is_pinned(const lks_world* world, lks_object_id object, uint32_t vertex);
 
-/* The force of one constraint in newtons at the end of the last tick (λ/h², the mean over its last substep):
- * positive pulls the ends together (tension), negative pushes them apart. Needs record_forces. Saturates at
- * ±8,388,607 N. */
+/* The force of one constraint in newtons at the end of the last tick (λ/h², the mean over its last substep),
+ * whatever was pinned or unpinned since: positive pulls the ends together (tension), negative pushes them
+ * apart. Needs record_forces. Saturates at ±8,388,607 N. */
 LKS_API lks_result lks_object_constraint_force(const lks_world* world, lks_object_id object,
                                                uint32_t constraint, lks_fixed* force);
 
