@@ -245,7 +245,8 @@ private:
         }
         Object* object = stage(slot, *known, image);
         if (object == nullptr ||
-            !object->reserve_pins(std::max<std::size_t>(image.pin_count, image.recorded_pin_count))) {
+            !object->reserve_pins(
+                std::max(image.pin_count, static_cast<std::uint32_t>(image.recorded_pin_count)))) {
             return world_.fail_out_of_memory("an image's objects");
         }
         return LKS_OK;
