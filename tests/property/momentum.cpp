@@ -228,13 +228,15 @@ TEST_CASE("the centre of a free cloth of unequal masses is within 1e-6 m after t
     }
 }
 
-TEST_CASE("the centre of a coarse free cloth of any mass ratios is within 3e-5 m after ten seconds") {
+TEST_CASE("the centre of a coarse free cloth is within 1e-6 m too, up to masses 1 : 1000") {
     // Rounding errors of corrections grow with the edges' lengths and average out over the particles: few
-    // particles and long edges are the worst case.
+    // particles and long edges are the worst case. The light end's share has 31 bits less log2 of the ratio.
     for (const Material& material : materials) {
-        for (const double ratio : {1.0001, 10.0, 1000.0, 1e6}) {
+        for (const double ratio : {1.0001, 10.0, 1000.0}) {
             INFO(material.name << ", masses 1 : " << ratio);
-            CHECK(error_of_the_centre(20, material, ratio) <= 3e-5);
+            CHECK(error_of_the_centre(20, material, ratio) <= 1e-6);
         }
+        INFO(material.name << ", masses 1 : 1e6");
+        CHECK(error_of_the_centre(20, material, 1e6) <= 3e-5);
     }
 }

@@ -82,7 +82,6 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
             update_constraint(asset, rate, none, i, b);
             batches[b].equal_shares = batches[b].equal_shares && shares_a[i] == shares_b[i];
         }
-        batches[b].uniform = batches[b].equal_shares;
     }
     return true;
 }
@@ -111,7 +110,7 @@ void Coefficients::update_particle(const lks_asset& asset, const StepRate& rate,
             ++batch;
         }
         update_constraint(asset, rate, pinned, constraint, batch);
-        // Never set back to true: two multiplications too many are cheaper than a look at the whole batch.
+        // Never set back to true: that would need a look at the whole batch.
         batches[batch].equal_shares =
             batches[batch].equal_shares && shares_a[constraint] == shares_b[constraint];
     }

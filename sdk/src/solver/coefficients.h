@@ -25,10 +25,7 @@ struct FamilyCoefficients {
 
 struct BatchCoefficients {
     std::int32_t share_exponent = 0; // s = share · 2^-(31 + share_exponent)
-    // s_a = s_b throughout while nothing is pinned: decides how the correction is rounded, so it never
-    // changes.
-    bool uniform = true;
-    // s_a = s_b throughout now. Only saves work: both ends' products are then the same number.
+    // s_a = s_b throughout, so that nobody need look. False says nothing.
     bool equal_shares = true;
 };
 

@@ -30,6 +30,7 @@ struct BatchParameters {
     std::int32_t rest_exponent;
     std::int32_t gain_shift;    // Unit × Direction product to gain
     std::int32_t product_shift; // gain × difference product to Coordinate
+    std::int32_t impulse_shift; // impulse × share to Coordinate, to the left
     std::uint32_t error_share;
     std::uint32_t damping_share;
 };
@@ -84,6 +85,13 @@ inline std::int64_t rest_ratio(std::uint32_t rest_mantissa, std::uint32_t y, int
 
 inline std::int64_t unit_multiply(std::uint32_t unit, std::int64_t value) {
     return shift_right_rounded(value * static_cast<std::int64_t>(unit), unit_fraction_bits);
+}
+
+// impulse · share / 2^31, the product in full.
+inline std::int64_t share_of(std::int64_t impulse, std::uint32_t share) {
+    static_assert(unit_fraction_bits == 31);
+    const std::int64_t factor = share;
+    return (impulse >> 31) * factor + (((impulse & INT32_MAX) * factor) >> 31);
 }
 
 template <bool equal_shares, bool soft, bool damped, bool multiplier>
@@ -169,30 +177,42 @@ private:
 
     void apply(std::uint32_t constraint, std::uint32_t a, std::uint32_t b, const NarrowDifference& d,
                std::int64_t f) const {
-        const std::int64_t gain_a =
-            shift_right_rounded(static_cast<std::int64_t>(shares_a_[constraint]) * f, parameters_.gain_shift);
-        const int left = d.extra - parameters_.product_shift;
-        const auto product = [left](std::int64_t difference, std::int64_t gain) {
-            return left == 0 ? difference * gain : shift_either_way(difference * gain, left);
-        };
-        const std::int64_t ax = product(d.x, gain_a);
-        const std::int64_t ay = product(d.y, gain_a);
-        const std::int64_t az = product(d.z, gain_a);
-        arrays_.x[a] = wrapping_add(arrays_.x[a], ax);
-        arrays_.y[a] = wrapping_add(arrays_.y[a], ay);
-        arrays_.z[a] = wrapping_add(arrays_.z[a], az);
-        if constexpr (equal_shares) {
-            // The same rounded correction at both ends: linear momentum is kept to the bit.
-            arrays_.x[b] = wrapping_subtract(arrays_.x[b], ax);
-            arrays_.y[b] = wrapping_subtract(arrays_.y[b], ay);
-            arrays_.z[b] = wrapping_subtract(arrays_.z[b], az);
+        if (equal_shares || shares_a_[constraint] == shares_b_[constraint]) {
+            move_alike(shares_a_[constraint], a, b, d, f);
         } else {
-            const std::int64_t gain_b = shift_right_rounded(
-                static_cast<std::int64_t>(shares_b_[constraint]) * f, parameters_.gain_shift);
-            arrays_.x[b] = wrapping_subtract(arrays_.x[b], product(d.x, gain_b));
-            arrays_.y[b] = wrapping_subtract(arrays_.y[b], product(d.y, gain_b));
-            arrays_.z[b] = wrapping_subtract(arrays_.z[b], product(d.z, gain_b));
+            move_by_share(shares_a_[constraint], shares_b_[constraint], a, b, d, f);
         }
+    }
+
+    // Both ends by the same rounded correction: linear momentum is kept to the bit.
+    void move_alike(std::uint32_t share, std::uint32_t a, std::uint32_t b, const NarrowDifference& d,
+                    std::int64_t f) const {
+        const std::int64_t gain =
+            shift_right_rounded(static_cast<std::int64_t>(share) * f, parameters_.gain_shift);
+        const int left = d.extra - parameters_.product_shift;
+        const auto move = [&](std::int64_t* x, std::int64_t difference) {
+            const std::int64_t correction =
+                left == 0 ? difference * gain : shift_either_way(difference * gain, left);
+            x[a] = wrapping_add(x[a], correction);
+            x[b] = wrapping_subtract(x[b], correction);
+        };
+        move(arrays_.x, d.x);
+        move(arrays_.y, d.y);
+        move(arrays_.z, d.z);
+    }
+
+    // Each end by its share of the impulse d·f in full: gains rounded apart would push the whole object.
+    void move_by_share(std::uint32_t share_a, std::uint32_t share_b, std::uint32_t a, std::uint32_t b,
+                       const NarrowDifference& d, std::int64_t f) const {
+        const int left = parameters_.impulse_shift + d.extra;
+        const auto move = [&](std::int64_t* x, std::int64_t difference) {
+            const std::int64_t impulse = difference * f;
+            x[a] = wrapping_add(x[a], shift_either_way(share_of(impulse, share_a), left));
+            x[b] = wrapping_subtract(x[b], shift_either_way(share_of(impulse, share_b), left));
+        };
+        move(arrays_.x, d.x);
+        move(arrays_.y, d.y);
+        move(arrays_.z, d.z);
     }
 
     const std::uint32_t* rest_mantissas_;
@@ -211,12 +231,13 @@ BatchParameters batch_parameters(const Batch& batch, const BatchCoefficients& ba
     parameters.error_share = family.error_share;
     parameters.damping_share = family.damping_share;
     // A gain of difference_shift bits makes the product a coordinate as it stands. Where a shift is needed
-    // anyway, or where the two ends' gains differ and their rounding would show in the momentum, it has 30
-    // bits.
-    const bool plain = batch_coefficients.uniform && batch_coefficients.share_exponent == 0;
+    // anyway, it has 30 bits.
+    const bool plain = batch_coefficients.share_exponent == 0;
     const int gain_bits = plain ? batch.difference_shift : direction_fraction_bits;
     parameters.gain_shift = unit_fraction_bits + direction_fraction_bits - gain_bits;
     parameters.product_shift = gain_bits - batch.difference_shift + batch_coefficients.share_exponent;
+    parameters.impulse_shift =
+        batch.difference_shift - direction_fraction_bits - batch_coefficients.share_exponent;
     return parameters;
 }
 

@@ -1,14 +1,19 @@
 // The distance constraint C = |x_a − x_b| − L (XPBD eq. 18 and 26): one pass over one batch.
 //
 // Positions are read as 32-bit differences, everything in between is 32 bits wide, and the correction is
-// added to the positions as a full 32×32→64 product (docs/numbers.md):
+// added to the positions as a product in full (docs/numbers.md):
 //
-//     d = (x_a − x_b) >> (s + e)      rounded half up; s is the batch's, e > 0 only for edges too long for 32
-//     bits u = d·d,  y = 1/√u              31 bits f = c·(min(L·y, 2) − 1) − r·Λ·y − γ'·d·(Δx_a − Δx_b)·y²
-//     relative correction, clamped to [−1, 1] x_a += d·(s_a·f),  x_b −= d·(s_b·f)
+// clang-format off
+//     d = (x_a − x_b) >> (s + e)           32 bits, rounded; s is the batch's, e > 0 for far edges only
+//     u = d·d,  y = 1/√u                   31 bits
+//     f = c·(min(L·y, 2) − 1) − r·Λ·y − γ'·d·(Δx_a − Δx_b)·y²       clamped to [−1, 1]
+//     x_a += d·(s_a·f),  x_b −= d·(s_b·f)  where s_a = s_b: the same product at both ends
+//     x_a += (d·f)·s_a,  x_b −= (d·f)·s_b  where they differ: 32×32×32 bits
+// clang-format on
 //
-// The clamp is part of the method: one projection may double an edge or close it, no more. An edge of length
-// zero has no direction and is left as it is. What one constraint does depends on its own two particles only.
+// So momentum is kept to the bit between equal masses, and to about 2^-31 of each correction otherwise. The
+// clamp is part of the method: one projection may double an edge or close it, no more. An edge of length zero
+// has no direction and is left as it is. What one constraint does depends on its own two particles only.
 #pragma once
 
 #include <cstdint>
