@@ -61,3 +61,13 @@ compare "pkg-config, c, -static" "$build/game_all_static"
 c++ -std=c++11 $strict "$here/game.cpp" -o "$build/game_cpp" $flags
 compare "pkg-config, c++, shared" env LD_LIBRARY_PATH="$library" "$build/game_cpp"
 compare "ctypes" python3 "$here/game.py" "$library/liblockstitch.so.0"
+
+# The program that the README shows is the first thing that anybody copies.
+sed -n '/^```c$/,/^```$/{/^```/d;p}' "$here/../../README.md" >"$build/readme.c"
+cc -std=c99 $strict "$build/readme.c" -o "$build/readme" $flags
+printed=$(LD_LIBRARY_PATH="$library" "$build/readme")
+if [[ ! $printed =~ ^"tick 59 "[0-9a-f]{16}$ ]]; then
+    printf 'The program in README.md printed: %s\n' "$printed" >&2
+    exit 1
+fi
+echo "ok: the program in README.md"

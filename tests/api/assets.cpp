@@ -108,6 +108,7 @@ TEST_CASE("constraints that don't exist and buffers that are too small are refus
     const Asset rope = Chain().build();
     CHECK(lks_asset_triangle_count(rope) == 0);
     CHECK(lks_asset_triangles(rope, indices.data(), indices.size()) == LKS_OK);
+    CHECK(lks_asset_triangles(rope, nullptr, 0) == LKS_OK);
     CHECK(indices[0] == 7);
 }
 

@@ -34,6 +34,22 @@ Sum sum_of_positions(const World& world, lks_object_id object) {
     return sum;
 }
 
+// Whether the sum of all positions moves by the same amount, to the bit, in each of so many ticks.
+bool keeps_momentum(World& world, lks_object_id object, int ticks, Sum& drift) {
+    Sum before = sum_of_positions(world, object);
+    world.step();
+    Sum now = sum_of_positions(world, object);
+    drift = now - before;
+    bool kept = true;
+    for (int tick = 1; tick < ticks; ++tick) {
+        before = now;
+        world.step();
+        now = sum_of_positions(world, object);
+        kept = kept && now - before == drift;
+    }
+    return kept;
+}
+
 World weightless(std::uint32_t substeps, std::uint32_t iterations = 1) {
     lks_world_def def = world_def(60, substeps, iterations);
     def.gravity = {};
@@ -81,20 +97,10 @@ TEST_CASE("a free cloth of equal masses keeps its momentum to the bit") {
             // Fast enough to make the frame follow by whole metres.
             stir(world, object, asset.vertex_count(), fixed(5, -3, 11));
 
-            Sum before = sum_of_positions(world, object);
-            world.step();
-            Sum now = sum_of_positions(world, object);
-            const Sum drift = now - before;
-            CHECK_FALSE(drift == Sum{});
             const lks_vec3 first_origin = world.origin(object);
-            bool kept = true;
-            for (int tick = 1; tick < 240; ++tick) {
-                before = now;
-                world.step();
-                now = sum_of_positions(world, object);
-                kept = kept && now - before == drift;
-            }
-            CHECK(kept);
+            Sum drift;
+            CHECK(keeps_momentum(world, object, 240, drift));
+            CHECK_FALSE(drift == Sum{});
             CHECK_FALSE(same(world.origin(object), first_origin));
             CHECK(world.counters().speed_clamps == 0);
             CHECK(world.counters().position_clamps == 0);
@@ -113,18 +119,8 @@ TEST_CASE("a free mesh of equal masses keeps its momentum to the bit") {
     World world = weightless(10);
     const lks_object_id object = world.add(asset, at(0, 0, 0));
     stir(world, object, asset.vertex_count(), {});
-    Sum before = sum_of_positions(world, object);
-    world.step();
-    Sum now = sum_of_positions(world, object);
-    const Sum drift = now - before;
-    bool kept = true;
-    for (int tick = 1; tick < 240; ++tick) {
-        before = now;
-        world.step();
-        now = sum_of_positions(world, object);
-        kept = kept && now - before == drift;
-    }
-    CHECK(kept);
+    Sum drift;
+    CHECK(keeps_momentum(world, object, 240, drift));
 }
 
 TEST_CASE("a cloth that was pinned once and is free again keeps its momentum to the bit") {
@@ -140,18 +136,8 @@ TEST_CASE("a cloth that was pinned once and is free again keeps its momentum to 
     world.step(20);
     REQUIRE(lks_object_unpin(world, object, 77) == LKS_OK);
     REQUIRE(lks_object_unpin(world, object, 0) == LKS_OK);
-    Sum before = sum_of_positions(world, object);
-    world.step();
-    Sum now = sum_of_positions(world, object);
-    const Sum drift = now - before;
-    bool kept = true;
-    for (int tick = 0; tick < 120; ++tick) {
-        before = now;
-        world.step();
-        now = sum_of_positions(world, object);
-        kept = kept && now - before == drift;
-    }
-    CHECK(kept);
+    Sum drift;
+    CHECK(keeps_momentum(world, object, 121, drift));
 }
 
 TEST_CASE("the momentum that is kept is the one that was given") {

@@ -116,7 +116,7 @@ LKS_API uint32_t lks_asset_colour_count(const lks_asset* asset);
 LKS_API uint32_t lks_asset_triangle_count(const lks_asset* asset); /* 0 for a rope */
 
 /* Writes triangle_count × 3 indices in the caller's vertex numbering and order; a grid has two triangles a
- * cell. */
+ * cell. A rope has none, and needs no buffer. */
 LKS_API lks_result lks_asset_triangles(const lks_asset* asset, uint32_t* indices, size_t index_capacity);
 
 /* One distance constraint, in the canonical order in which the solver visits them. */

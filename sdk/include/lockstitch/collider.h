@@ -50,7 +50,8 @@ LKS_API uint32_t lks_world_has_collider(const lks_world* world, lks_collider_id 
 
 /* Kinematic motion: where the collider is to be at the end of the next tick; it gets there evenly over the
  * substeps and then rests there until the next call. It pushes and drags what it touches. At most 100 m and
- * 90° a tick: further is refused (use lks_collider_set_transform). */
+ * 90° a tick: further is refused (use lks_collider_set_transform). Beyond 60 m a substep it may jump over
+ * particles. */
 LKS_API lks_result lks_collider_move_to(lks_world* world, lks_collider_id collider, lks_transform target);
 /* Puts it there at once, without a motion. */
 LKS_API lks_result lks_collider_set_transform(lks_world* world, lks_collider_id collider,

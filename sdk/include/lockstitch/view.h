@@ -29,7 +29,7 @@ typedef struct lks_vertex_view {
 
 LKS_API lks_vertex_view lks_default_vertex_view(void);
 
-/* Writes all vertices in the caller's numbering. */
+/* Writes all vertices in the caller's numbering. Buffers are aligned to 4 bytes. */
 LKS_API lks_result lks_object_write_vertices(const lks_world* world, lks_object_id object,
                                              const lks_vertex_view* view);
 

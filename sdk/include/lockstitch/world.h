@@ -59,7 +59,8 @@ LKS_API lks_result lks_world_step(lks_world* world);
  * the interpolation) belongs to the view: it is no part of the state, its hash or its images. */
 LKS_API lks_result lks_world_advance(lks_world* world, int64_t elapsed_ns, uint32_t* ticks_run);
 
-/* How far the clock is past the last tick, as a fraction of a tick in Q0.32. For drawing only. */
+/* How far the clock is past the last tick, as a fraction of a tick in Q0.32; just below one where
+ * ticks are still due (LKS_EXCESS_TIME_KEEP). For drawing only. */
 LKS_API uint32_t lks_world_interpolation(const lks_world* world);
 
 /* Ticks since the world was created (part of the state); 0 for null. */

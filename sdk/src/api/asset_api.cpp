@@ -147,7 +147,7 @@ uint32_t lks_asset_triangle_count(const lks_asset* asset) {
 }
 
 lks_result lks_asset_triangles(const lks_asset* asset, uint32_t* indices, size_t index_capacity) {
-    if (asset == nullptr || indices == nullptr) {
+    if (asset == nullptr || (indices == nullptr && !asset->triangles.empty())) {
         return LKS_ERROR_NULL_ARGUMENT;
     }
     if (index_capacity < asset->triangles.size()) {

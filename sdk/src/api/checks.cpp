@@ -47,4 +47,19 @@ lks_result check_vertex(const lks_world& world, const Object& object, std::uint3
                                                              << object.count() << " vertices.");
 }
 
+Object* require_object(const lks_world* world, lks_object_id id, lks_result& result) {
+    if (world == nullptr) {
+        result = LKS_ERROR_NULL_ARGUMENT;
+        return nullptr;
+    }
+    Object* object = world->find_object(id);
+    result = LKS_OK;
+    if (object == nullptr) {
+        result = world->fail(LKS_ERROR_STALE_ID, Sentence() << "There is no object with index " << id.index
+                                                            << " and generation " << id.generation
+                                                            << " in this world.");
+    }
+    return object;
+}
+
 } // namespace lks

@@ -37,6 +37,9 @@ Sentence out_of_range(const char* name, std::int64_t value, const char* unit, st
 Sentence null_argument(const char* function, const char* name);
 Sentence wrong_struct_size(const char* type, std::uint32_t given, std::size_t expected);
 
+// The object; null, with the result, where there is no world, or reported where the id is stale.
+Object* require_object(const lks_world* world, lks_object_id id, lks_result& result);
+
 // LKS_OK, or reported: `index` is no vertex of the object.
 lks_result check_vertex(const lks_world& world, const Object& object, std::uint32_t vertex);
 

@@ -100,11 +100,7 @@ std::int64_t world_axis(std::int64_t origin, std::int64_t coordinate) {
 const Object* require_vertices(const lks_world* world, lks_object_id id, std::uint32_t first,
                                std::uint32_t count, const void* buffer, const char* function,
                                lks_result& result) {
-    if (world == nullptr) {
-        result = LKS_ERROR_NULL_ARGUMENT;
-        return nullptr;
-    }
-    const Object* object = world->require_object(id, result);
+    const Object* object = require_object(world, id, result);
     if (object == nullptr) {
         return nullptr;
     }
@@ -153,11 +149,13 @@ lks_result lks_world_add_object(lks_world* world, const lks_object_def* def, lks
         return world->fail(LKS_ERROR_LIMIT,
                            Sentence() << "A world holds at most " << LKS_MAX_OBJECTS << " objects.");
     }
+    const std::size_t known_before = world->assets.size();
     const KnownAsset* known = world->know_asset(*def->asset);
     Object* made = known == nullptr || !reserve_slot(*world, index)
                        ? nullptr
                        : world->make_object(*known, def->record_forces != 0);
     if (made == nullptr) {
+        world->forget_assets(known_before);
         return world->fail_out_of_memory("an object");
     }
     place_particles(*made, *def, world->rate);
@@ -170,11 +168,8 @@ lks_result lks_world_add_object(lks_world* world, const lks_object_def* def, lks
 }
 
 lks_result lks_world_remove_object(lks_world* world, lks_object_id object) {
-    if (world == nullptr) {
-        return LKS_ERROR_NULL_ARGUMENT;
-    }
     lks_result result = LKS_OK;
-    if (world->require_object(object, result) != nullptr) {
+    if (require_object(world, object, result) != nullptr) {
         free_object_slot(*world, object.index);
     }
     return result;

@@ -16,11 +16,7 @@ constexpr lks_fixed damping_limit = LKS_FIXED(1000);
 // The object and the particle of a vertex; null, with the result reported, where either does not exist.
 Object* require_particle(lks_world* world, lks_object_id id, std::uint32_t vertex, std::uint32_t& particle,
                          lks_result& result) {
-    if (world == nullptr) {
-        result = LKS_ERROR_NULL_ARGUMENT;
-        return nullptr;
-    }
-    Object* object = world->require_object(id, result);
+    Object* object = require_object(world, id, result);
     if (object == nullptr) {
         return nullptr;
     }
@@ -70,11 +66,8 @@ Pin* require_pin(lks_world* world, lks_object_id id, std::uint32_t vertex, Objec
 extern "C" {
 
 lks_result lks_object_set_gravity_factor(lks_world* world, lks_object_id object, lks_fixed factor) {
-    if (world == nullptr) {
-        return LKS_ERROR_NULL_ARGUMENT;
-    }
     lks_result result = LKS_OK;
-    Object* found = world->require_object(object, result);
+    Object* found = require_object(world, object, result);
     if (found == nullptr) {
         return result;
     }
@@ -87,11 +80,8 @@ lks_result lks_object_set_gravity_factor(lks_world* world, lks_object_id object,
 }
 
 lks_result lks_object_set_linear_damping(lks_world* world, lks_object_id object, lks_fixed damping) {
-    if (world == nullptr) {
-        return LKS_ERROR_NULL_ARGUMENT;
-    }
     lks_result result = LKS_OK;
-    Object* found = world->require_object(object, result);
+    Object* found = require_object(world, object, result);
     if (found == nullptr) {
         return result;
     }
@@ -142,11 +132,8 @@ lks_result lks_object_apply_impulse(lks_world* world, lks_object_id object, uint
 }
 
 lks_result lks_object_add_velocity(lks_world* world, lks_object_id object, lks_vec3 velocity) {
-    if (world == nullptr) {
-        return LKS_ERROR_NULL_ARGUMENT;
-    }
     lks_result result = LKS_OK;
-    Object* found = world->require_object(object, result);
+    Object* found = require_object(world, object, result);
     if (found == nullptr) {
         return result;
     }

@@ -163,11 +163,8 @@ lks_vertex_view lks_default_vertex_view(void) {
 
 lks_result lks_object_write_vertices(const lks_world* world, lks_object_id object,
                                      const lks_vertex_view* view) {
-    if (world == nullptr) {
-        return LKS_ERROR_NULL_ARGUMENT;
-    }
     lks_result result = LKS_OK;
-    const Object* found = world->require_object(object, result);
+    const Object* found = require_object(world, object, result);
     if (found == nullptr) {
         return result;
     }

@@ -21,10 +21,7 @@ lks_world::~lks_world() {
     for (lks::ObjectSlot& slot : objects) {
         destroy_object(slot.object);
     }
-    for (const KnownAsset& known : assets) {
-        lks::destroy(allocator, known.coefficients);
-        lks::release_asset(known.asset);
-    }
+    forget_assets(0);
 }
 
 lks_result lks_world::fail(lks_result result, const Sentence& sentence) const {
@@ -44,17 +41,6 @@ Object* lks_world::find_object(lks_object_id id) const {
         return nullptr;
     }
     return objects[id.index].object;
-}
-
-Object* lks_world::require_object(lks_object_id id, lks_result& result) const {
-    Object* object = find_object(id);
-    result = LKS_OK;
-    if (object == nullptr) {
-        result =
-            fail(LKS_ERROR_STALE_ID, Sentence() << "There is no object with index " << id.index
-                                                << " and generation " << id.generation << " in this world.");
-    }
-    return object;
 }
 
 const lks::ColliderState* lks_world::find_collider(lks_collider_id id) const {
@@ -98,6 +84,15 @@ const KnownAsset* lks_world::know_asset(const lks_asset& asset) {
     lks::retain_asset(&asset);
     assets.push_reserved(KnownAsset{&asset, coefficients});
     return &assets[assets.size() - 1];
+}
+
+void lks_world::forget_assets(std::size_t count) {
+    while (assets.size() > count) {
+        const KnownAsset known = assets[assets.size() - 1];
+        assets.erase(assets.size() - 1);
+        lks::destroy(allocator, known.coefficients);
+        lks::release_asset(known.asset);
+    }
 }
 
 Object* lks_world::make_object(const KnownAsset& known, bool record_forces) const {

@@ -78,8 +78,6 @@ struct lks_world {
     lks_result fail_out_of_memory(const char* what) const;
 
     lks::Object* find_object(lks_object_id id) const;
-    // As find_object, with the failure reported; *result says which.
-    lks::Object* require_object(lks_object_id id, lks_result& result) const;
     lks::ColliderState* find_collider(lks_collider_id id);
     const lks::ColliderState* find_collider(lks_collider_id id) const;
     lks_result stale_collider(lks_collider_id id) const;
@@ -87,6 +85,8 @@ struct lks_world {
     const lks::KnownAsset* find_asset(std::uint64_t fingerprint) const;
     // The asset among the known ones, added if it is new. Null: no memory.
     const lks::KnownAsset* know_asset(const lks_asset& asset);
+    // Those known last, until `count` are left.
+    void forget_assets(std::size_t count);
     // A new, empty object of a known asset. Null: no memory.
     lks::Object* make_object(const lks::KnownAsset& known, bool record_forces) const;
     void destroy_object(lks::Object* object) const;
