@@ -241,48 +241,63 @@ BatchParameters batch_parameters(const Batch& batch, const BatchCoefficients& ba
     return parameters;
 }
 
+// The first of a batch's runs that reaches beyond `first`.
+std::uint32_t find_run(const lks_asset& asset, const Batch& batch, std::uint32_t first) {
+    const Run* runs = asset.runs.data();
+    const Run* found =
+        std::upper_bound(runs + batch.first_run, runs + batch.first_run + batch.run_count, first,
+                         [](std::uint32_t i, const Run& run) { return i < run.first + run.count; });
+    return static_cast<std::uint32_t>(found - runs);
+}
+
 template <bool equal_shares, bool soft, bool damped, bool multiplier>
 void project_batch(const lks_asset& asset, const Coefficients& coefficients, std::uint32_t batch_index,
-                   const DistanceArrays& arrays) {
+                   ConstraintRange range, const DistanceArrays& arrays) {
     const Batch& batch = asset.batches[batch_index];
     const BatchParameters parameters =
         batch_parameters(batch, coefficients.batches[batch_index], coefficients.families[batch.family]);
     const Projection<equal_shares, soft, damped, multiplier> project(asset, coefficients, parameters, arrays);
-    for (std::uint32_t r = batch.first_run; r < batch.first_run + batch.run_count; ++r) {
+    const std::uint32_t last_run = batch.first_run + batch.run_count;
+    for (std::uint32_t r = find_run(asset, batch, range.first); r < last_run; ++r) {
         const Run run = asset.runs[r];
-        for (std::uint32_t i = 0; i < run.count; ++i) {
-            project(run.first + i, run.a + i, run.b + i);
+        if (run.first >= range.last) {
+            return;
+        }
+        const std::uint32_t first = std::max(run.first, range.first);
+        const std::uint32_t last = std::min(run.first + run.count, range.last);
+        for (std::uint32_t i = first; i < last; ++i) {
+            project(i, run.a + (i - run.first), run.b + (i - run.first));
         }
     }
-    for (std::uint32_t i = batch.first_single; i < batch.first + batch.count; ++i) {
+    for (std::uint32_t i = std::max(batch.first_single, range.first); i < range.last; ++i) {
         project(i, asset.constraints[i].a, asset.constraints[i].b);
     }
 }
 
 template <bool equal_shares, bool multiplier>
 void project_family(const lks_asset& asset, const Coefficients& coefficients, std::uint32_t batch,
-                    const DistanceArrays& arrays) {
+                    ConstraintRange range, const DistanceArrays& arrays) {
     const FamilyCoefficients& family = coefficients.families[asset.batches[batch].family];
     if (!family.soft) {
-        project_batch<equal_shares, false, false, multiplier>(asset, coefficients, batch, arrays);
+        project_batch<equal_shares, false, false, multiplier>(asset, coefficients, batch, range, arrays);
     } else if (family.damping_share == 0) {
-        project_batch<equal_shares, true, false, multiplier>(asset, coefficients, batch, arrays);
+        project_batch<equal_shares, true, false, multiplier>(asset, coefficients, batch, range, arrays);
     } else {
-        project_batch<equal_shares, true, true, multiplier>(asset, coefficients, batch, arrays);
+        project_batch<equal_shares, true, true, multiplier>(asset, coefficients, batch, range, arrays);
     }
 }
 
 } // namespace
 
 void project_distances(const lks_asset& asset, const Coefficients& coefficients, std::uint32_t batch,
-                       const DistanceArrays& arrays) {
+                       ConstraintRange range, const DistanceArrays& arrays) {
     const bool equal_shares = coefficients.batches[batch].equal_shares;
     if (arrays.multipliers == nullptr) {
-        equal_shares ? project_family<true, false>(asset, coefficients, batch, arrays)
-                     : project_family<false, false>(asset, coefficients, batch, arrays);
+        equal_shares ? project_family<true, false>(asset, coefficients, batch, range, arrays)
+                     : project_family<false, false>(asset, coefficients, batch, range, arrays);
     } else {
-        equal_shares ? project_family<true, true>(asset, coefficients, batch, arrays)
-                     : project_family<false, true>(asset, coefficients, batch, arrays);
+        equal_shares ? project_family<true, true>(asset, coefficients, batch, range, arrays)
+                     : project_family<false, true>(asset, coefficients, batch, range, arrays);
     }
 }
 

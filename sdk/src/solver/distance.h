@@ -1,4 +1,4 @@
-// The distance constraint C = |x_a − x_b| − L (XPBD eq. 18 and 26): one pass over one batch.
+// The distance constraint C = |x_a − x_b| − L (XPBD eq. 18 and 26): one pass over a batch or a part of it.
 //
 // Positions are read as 32-bit differences, everything in between is 32 bits wide, and the correction is
 // added to the positions as a product in full (docs/numbers.md):
@@ -35,7 +35,13 @@ struct DistanceArrays {
     std::int64_t* multipliers;
 };
 
+// Constraints of one batch, which may be taken in any order and by any thread.
+struct ConstraintRange {
+    std::uint32_t first;
+    std::uint32_t last; // one behind
+};
+
 void project_distances(const lks_asset& asset, const Coefficients& coefficients, std::uint32_t batch,
-                       const DistanceArrays& arrays);
+                       ConstraintRange range, const DistanceArrays& arrays);
 
 } // namespace lks

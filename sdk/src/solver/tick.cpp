@@ -72,8 +72,10 @@ private:
             std::fill(object_.multipliers.begin(), object_.multipliers.end(), 0);
         }
         for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
-            for (std::uint32_t batch = 0; batch < asset_.batches.size(); ++batch) {
-                project_distances(asset_, coefficients_, batch, distance_arrays());
+            for (std::uint32_t index = 0; index < asset_.batches.size(); ++index) {
+                const Batch& batch = asset_.batches[index];
+                project_distances(asset_, coefficients_, index, {batch.first, batch.first + batch.count},
+                                  distance_arrays());
             }
             resolve_all_contacts(substep);
         }
