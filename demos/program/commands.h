@@ -19,6 +19,7 @@ struct RunOptions {
     std::string schedule; // a file of nanoseconds a frame
     std::string offset_km;
     std::uint32_t hash_every = 0; // 0: only the last
+    std::string simd;             // a name of lockstitch/simd.h; empty: the best
     bool json = false;
 };
 

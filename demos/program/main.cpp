@@ -81,6 +81,8 @@ private:
             ->add_option("--schedule", run_options_.schedule,
                          "Let real time pass in frames of the nanoseconds in this file, one a line")
             ->excludes(rate);
+        command->add_option("--simd", run_options_.simd,
+                            "auto, scalar, sse4.1, avx2, avx512, neon or wasm: the same hashes");
         command->add_option("--offset-km", run_options_.offset_km,
                             "Move the scene this far along x, exactly");
         command->add_option("--hash-every", run_options_.hash_every, "Also print every so many ticks");
@@ -88,7 +90,8 @@ private:
         command->footer("Examples:\n"
                         "  lockstitch run flag --ticks 240 --hash-every 10\n"
                         "  lockstitch run flag --frame-rate 144\n"
-                        "  lockstitch run flag --offset-km 7000.5");
+                        "  lockstitch run flag --offset-km 7000.5\n"
+                        "  lockstitch run flag --simd scalar");
         command->callback([this] { code_ = lks_program::run(run_options_); });
     }
 

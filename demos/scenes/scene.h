@@ -36,6 +36,7 @@ struct SceneOptions {
     std::uint32_t substeps = 0;
     std::uint32_t iterations = 0;
     std::uint32_t max_ticks_per_advance = 0;
+    lks_simd simd = LKS_SIMD_AUTO;
     lks_allocator allocator{}; // of the world and its assets
     lks_log log{};
 };

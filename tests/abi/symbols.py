@@ -13,7 +13,8 @@ import sys
 library, include = sys.argv[1:3]
 allowed_libraries = {"libc.so.6", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
 allowed_functions = {
-    "malloc", "free", "memcpy", "memmove", "memset", "memcmp", "strlen", "__stack_chk_fail",
+    "malloc", "free", "memcpy", "memmove", "memset", "memcmp", "strlen", "strcmp", "__stack_chk_fail",
+    "getenv",  # LOCKSTITCH_SIMD
     # every shared library's own start and end
     "__cxa_finalize", "__gmon_start__", "_ITM_deregisterTMCloneTable", "_ITM_registerTMCloneTable",
 }

@@ -67,7 +67,7 @@ TEST_CASE("gravity beyond 1000 m/s2 on any axis is refused when created and when
     CHECK(lks_world_set_gravity(world, {LKS_FIXED(1000), LKS_FIXED(-1000), 0}) == LKS_OK);
 }
 
-TEST_CASE("a cap of no ticks or too many and unknown policies and reserved values are refused") {
+TEST_CASE("a cap of no ticks or too many and unknown policies are refused") {
     check_world_refused(changed([](auto& def) { def.max_ticks_per_advance = 0; }), LKS_ERROR_INVALID_ARGUMENT,
                         "0");
     check_world_refused(changed([](auto& def) { def.max_ticks_per_advance = 10001; }),
@@ -75,7 +75,7 @@ TEST_CASE("a cap of no ticks or too many and unknown policies and reserved value
     check_world_refused(changed([](auto& def) { def.excess_time = 2; }), LKS_ERROR_INVALID_ARGUMENT, "2");
     check_world_refused(changed([](auto& def) { def.keep_previous_positions = 7; }),
                         LKS_ERROR_INVALID_ARGUMENT, "7");
-    check_world_refused(changed([](auto& def) { def.reserved = 9; }), LKS_ERROR_INVALID_ARGUMENT, "9");
+    check_world_refused(changed([](auto& def) { def.simd = 9; }), LKS_ERROR_INVALID_ARGUMENT, "9");
 }
 
 TEST_CASE("half an allocator is refused") {

@@ -6,7 +6,10 @@ usage: integers_only.py sources SDK-SOURCE-FOLDER
 Files whose name begins with "authoring" take doubles apart bit by bit; files whose name begins with "view"
 make floats for drawing. `sources` looks for words that have no place elsewhere; `objects` disassembles what
 the compiler made of them: authoring files may carry a double around, but only view files may compute with
-one. And no object may have data that can be written: there is no global state.
+one. Kernels may convert an integer to a float to read its leading bit from the exponent, which is exact in
+every mode of the unit, and nothing else; and they share no function with other objects, which might then run
+it on a processor that has not got its instructions. And no object may have data that can be written: there is
+no global state.
 """
 import pathlib
 import re
@@ -25,7 +28,7 @@ denied_everywhere = [
     (r"\b(?:std::hash|rand|srand|getenv|std::clock|gettimeofday)\b",
      "something that differs between two machines"),
     (r"\b(?:throw|try|catch|dynamic_cast|typeid)\b", "an exception or run-time type information"),
-    (r"\b_mm\d*_\w+|\b__m\d+i?\b|\bimmintrin\.h|\barm_neon\.h", "an intrinsic outside solver/lanes"),
+    (r"\b_mm\d*_\w+|\b__m\d+i?\b|\bimmintrin\.h|\barm_neon\.h", "an intrinsic outside kernels"),
     (r"\b__(?:attribute__|builtin_\w+|asm__)|\basm\b", "a compiler extension"),
 ]
 
@@ -55,8 +58,9 @@ def without_comments(text):
 
 def source_problems(path, folder):
     rules = list(denied_everywhere)
-    if "lanes" in path.relative_to(folder).parts:
-        rules = [rule for rule in rules if "intrinsic" not in rule[1] and "extension" not in rule[1]]
+    if "kernels" in path.relative_to(folder).parts:
+        allowed = ("an intrinsic", "a compiler extension", "something that differs")
+        rules = [rule for rule in rules if not rule[1].startswith(allowed)]
     if not is_view(path) and not is_authoring(path):
         rules += denied_words
     text = without_comments(path.read_text(encoding="utf-8"))
@@ -102,10 +106,22 @@ def writable_data(path):
             yield found.group(2)
 
 
+def shared_functions(path):
+    """Names of weak functions: of several copies the linker keeps any one."""
+    for line in run("objdump", "-t", "-C", str(path)).splitlines():
+        found = re.match(r"[0-9a-f]+ (.{7}) (\S+)\s+[0-9a-f]+\s+(.*)$", line)
+        if found and "w" in found.group(1) and "F" in found.group(1):
+            yield found.group(3)
+
+
 def check_objects(paths):
     problems, seen_in_view = [], 0
     for path in paths:
         found = list(float_instructions(path))
+        if path.name.startswith("kernels_"):
+            found = [(function, word) for function, word in found if not re.match(r"v?cvtdq2ps$", word)]
+            problems += [f"{path.name}: {name} is a function that other objects may share."
+                         for name in shared_functions(path)]
         if is_view(path):
             seen_in_view += len(found)
         else:

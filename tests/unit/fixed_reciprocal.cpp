@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "big_integer.h"
+#include "fixed/projection_reciprocal_sqrt.h"
 #include "fixed/reciprocal_sqrt.h"
 #include "fixed_samples.h"
 
@@ -73,6 +74,23 @@ TEST_CASE("fixed: 1/sqrt of a mantissa is within 2^-30.99") {
     MESSAGE("worst relative error 2^", static_cast<double>(std::log2(tally.worst)));
     CHECK(reciprocal_sqrt_mantissa(1u << 30) == 1u << 31);
     CHECK(reciprocal_sqrt_mantissa(UINT32_MAX) == 1u << 30);
+}
+
+TEST_CASE("fixed: 1/sqrt for projections is within 2^-29.42, and below one") {
+    Tally tally;
+    const auto check = [](std::uint32_t m, Tally& t) {
+        const std::uint64_t y = projection_reciprocal_sqrt(m);
+        const Big<4> error =
+            (Big<4>::from_u64(y * y) * Big<4>::from_u64(m) - Big<4>::power_of_two(92)).absolute();
+        const bool in_range = y >= (std::uint64_t{1} << 30) && y < (std::uint64_t{1} << 31);
+        t.expect(in_range && error <= Big<4>::from_u64(13813000000000000000u), m, y); // 2^93 * 2^-29.42
+        t.measure(static_cast<long double>(error.low64()) * 0x1p-93L);
+    };
+    const std::uint64_t first = std::uint64_t{1} << 30;
+    check_edges(first, tally, check);
+    sweep("1/sqrt for projections", first, sweep_step(3 * first), tally, check);
+    LKS_CHECK_TALLY(tally);
+    MESSAGE("worst relative error 2^", static_cast<double>(std::log2(tally.worst)));
 }
 
 TEST_CASE("fixed: the reciprocal of a mantissa is within 2^-30.99") {

@@ -8,6 +8,7 @@
 #include <lockstitch/collider.h>
 #include <lockstitch/fixed.h>
 #include <lockstitch/object.h>
+#include <lockstitch/simd.h>
 #include <lockstitch/state.h>
 #include <lockstitch/view.h>
 #include <lockstitch/world.h>

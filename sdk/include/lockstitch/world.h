@@ -3,6 +3,7 @@
 #define LOCKSTITCH_WORLD_H
 
 #include <lockstitch/fixed.h>
+#include <lockstitch/simd.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -35,7 +36,7 @@ typedef struct lks_world_def {
     uint32_t excess_time;             /* an lks_excess_time */
     uint32_t keep_previous_positions; /* 1: interpolated views work (24 bytes a particle); 0: they show the
                                          last tick */
-    uint32_t reserved;                /* 0 */
+    uint32_t simd;                    /* an lks_simd; one that is not available here is refused */
     lks_tick_hook before_tick;
     lks_allocator allocator;
     lks_log log;
@@ -62,6 +63,9 @@ LKS_API lks_result lks_world_advance(lks_world* world, int64_t elapsed_ns, uint3
 /* How far the clock is past the last tick, as a fraction of a tick in Q0.32; just below one where
  * ticks are still due (LKS_EXCESS_TIME_KEEP). For drawing only. */
 LKS_API uint32_t lks_world_interpolation(const lks_world* world);
+
+/* The lks_simd in use, never LKS_SIMD_AUTO; no part of the state. LKS_SIMD_AUTO for null. */
+LKS_API lks_simd lks_world_simd(const lks_world* world);
 
 /* Ticks since the world was created (part of the state); 0 for null. */
 LKS_API uint64_t lks_world_tick(const lks_world* world);

@@ -28,7 +28,7 @@ lks_result check_world_def(const lks_world_def& def) {
         {"max_ticks_per_advance", def.max_ticks_per_advance, 1, 10000},
         {"excess_time", def.excess_time, LKS_EXCESS_TIME_DROP, LKS_EXCESS_TIME_KEEP},
         {"keep_previous_positions", def.keep_previous_positions, 0, 1},
-        {"reserved", def.reserved, 0, 0},
+        {"simd", def.simd, LKS_SIMD_AUTO, LKS_SIMD_WASM},
     };
     for (const Range& range : ranges) {
         if (range.value < range.low || range.value > range.high) {
@@ -46,6 +46,11 @@ lks_result check_world_def(const lks_world_def& def) {
     if (!within(def.gravity, gravity_limit)) {
         return report(def.error, LKS_ERROR_INVALID_ARGUMENT,
                       out_of_range("gravity", def.gravity, "m/s²", gravity_limit));
+    }
+    if (const auto simd = static_cast<lks_simd>(def.simd); find_kernels(simd) == nullptr) {
+        return report(def.error, LKS_ERROR_INVALID_ARGUMENT,
+                      Sentence() << "The world's simd is " << def.simd << " (" << simd_name(simd)
+                                 << "), which this processor or this build of the library has not got.");
     }
     if (!allocator_is_valid(def.allocator)) {
         return report(def.error, LKS_ERROR_INVALID_ARGUMENT,
@@ -175,6 +180,10 @@ uint32_t lks_world_interpolation(const lks_world* world) {
     const std::int64_t due = world->clock.due;
     const std::int64_t fraction = due >= clock_units_per_tick ? clock_units_per_tick - 1 : due;
     return static_cast<uint32_t>((static_cast<std::uint64_t>(fraction) << 32) / clock_units_per_tick);
+}
+
+lks_simd lks_world_simd(const lks_world* world) {
+    return world == nullptr ? LKS_SIMD_AUTO : world->kernels->level;
 }
 
 uint64_t lks_world_tick(const lks_world* world) {

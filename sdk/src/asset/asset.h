@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "asset/constraint_runs.h"
 #include "fixed/formats.h"
 #include "fixed/scaled.h"
 #include "memory/array.h"
@@ -22,14 +23,6 @@ struct Family {
     bool enabled = false;
     fixed::Scaled compliance{}; // m/N
     fixed::Scaled damping{};    // N·s/m
-};
-
-// `count` constraints from constraint `first`, between particles a + i and b + i.
-struct Run {
-    std::uint32_t first;
-    std::uint32_t count;
-    std::uint32_t a;
-    std::uint32_t b;
 };
 
 // The constraints of one family and colour: first its runs (each of at least minimum_run_length), then single
@@ -50,11 +43,6 @@ struct Batch {
 };
 
 inline constexpr std::uint32_t minimum_run_length = 8;
-
-struct Constraint {
-    std::uint32_t a; // particles
-    std::uint32_t b;
-};
 
 struct Coordinates {
     std::int64_t x, y, z;

@@ -23,8 +23,14 @@ FamilyTerms family_terms(const Family& family, const StepRate& rate) {
     return terms;
 }
 
-std::uint32_t to_unit(const Scaled& value, int extra_bits = 0) {
+// A share: below one by a unit at most, so that it is a positive 32-bit integer in the kernels.
+std::uint32_t to_share(const Scaled& value, int extra_bits) {
     const std::uint64_t raw = value.to_fixed(unit_fraction_bits + extra_bits);
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(raw, unit_one - 1));
+}
+
+std::uint32_t to_unit(const Scaled& value) {
+    const std::uint64_t raw = value.to_fixed(unit_fraction_bits);
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(raw, unit_one));
 }
 
@@ -130,8 +136,8 @@ void Coefficients::update_constraint(const lks_asset& asset, const StepRate& rat
         shares_a[constraint] = 0;
         shares_b[constraint] = 0;
     } else {
-        shares_a[constraint] = to_unit(w_a / effective, exponent);
-        shares_b[constraint] = to_unit(w_b / effective, exponent);
+        shares_a[constraint] = to_share(w_a / effective, exponent);
+        shares_b[constraint] = to_share(w_b / effective, exponent);
     }
     if (!relaxations.empty()) {
         relaxations[constraint] = effective.is_zero() ? 0 : to_unit(terms.softness / effective);

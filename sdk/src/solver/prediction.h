@@ -7,19 +7,16 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernels/kernels.h"
 #include "solver/step_rate.h"
 
 namespace lks {
 
-struct PredictionClamps {
-    std::uint64_t positions = 0;
-    std::uint64_t speeds = 0;
-};
-
 // One axis of all particles. Adds the velocity, damped to `kept` of itself (Unit), and `acceleration_motion`;
 // each within the motion limit, and the position within the object's range.
 void predict_axis(std::int64_t* x, std::int64_t* start, std::size_t count, std::int64_t acceleration_motion,
-                  std::uint32_t kept, std::int64_t motion_limit, PredictionClamps& clamps);
+                  std::uint32_t kept, std::int64_t motion_limit, const Kernels& kernels,
+                  PredictionClamps& clamps);
 
 // Sets the velocity of one axis of one particle: x stays, the start moves. True where the limit clamped it.
 bool set_motion(std::int64_t x, std::int64_t& start, std::int64_t motion, std::int64_t motion_limit);

@@ -75,7 +75,7 @@ private:
             for (std::uint32_t index = 0; index < asset_.batches.size(); ++index) {
                 const Batch& batch = asset_.batches[index];
                 project_distances(asset_, coefficients_, index, {batch.first, batch.first + batch.count},
-                                  distance_arrays());
+                                  distance_arrays(), *world_.kernels);
             }
             resolve_all_contacts(substep);
         }
@@ -85,7 +85,7 @@ private:
         PredictionClamps clamps;
         for (int axis = 0; axis < 3; ++axis) {
             predict_axis(object_.axis(axis), object_.start_axis(axis), object_.count(), acceleration_[axis],
-                         kept_, world_.rate.motion_limit, clamps);
+                         kept_, world_.rate.motion_limit, *world_.kernels, clamps);
         }
         world_.counters.position_clamps += clamps.positions;
         world_.counters.speed_clamps += clamps.speeds;

@@ -11,6 +11,7 @@ using lks::Sentence;
 lks_world::lks_world(const lks_world_def& def)
     : allocator(def.allocator), log(def.log), before_tick(def.before_tick),
       rate(lks::make_step_rate(def.tick_rate_hz, def.substeps, def.iterations)),
+      kernels(lks::find_kernels(static_cast<lks_simd>(def.simd))),
       max_ticks_per_advance(def.max_ticks_per_advance),
       excess_time(static_cast<lks_excess_time>(def.excess_time)),
       keep_previous(def.keep_previous_positions != 0), gravity{def.gravity.x, def.gravity.y, def.gravity.z},

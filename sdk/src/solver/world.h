@@ -10,6 +10,7 @@
 
 #include "api/report.h"
 #include "collide/collider_motion.h"
+#include "kernels/kernels.h"
 #include "memory/array.h"
 #include "solver/object.h"
 #include "solver/step_rate.h"
@@ -54,6 +55,7 @@ struct lks_world {
     lks_log log;
     lks_tick_hook before_tick;
     lks::StepRate rate;
+    const lks::Kernels* kernels;
     std::uint32_t max_ticks_per_advance;
     lks_excess_time excess_time;
     bool keep_previous;

@@ -1,0 +1,222 @@
+// One projection in plain integers: the specification of what every kernel computes (solver/distance.h).
+//
+// Everything here has internal linkage, so that each kernel's file compiles it for its own instruction set
+// and none takes another's.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+
+#include "fixed/formats.h"
+#include "fixed/projection_reciprocal_sqrt.h"
+#include "kernels/distance_task.h"
+#include "solver/wrapping.h"
+
+namespace lks {
+namespace {
+
+inline std::int64_t shift_right_rounded(std::int64_t value, int shift) {
+    return wrapping_add(value, std::int64_t{1} << (shift - 1)) >> shift;
+}
+
+// Within [-2^30, 2^30).
+inline bool fits_difference(std::int64_t value) {
+    return static_cast<std::uint64_t>(value + direction_one) < 2 * std::uint64_t{direction_one};
+}
+
+// value · 2^left for left in -63 .. 63, wrapping.
+inline std::int64_t shift_either_way(std::int64_t value, int left) {
+    return left >= 0 ? static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << left)
+                     : shift_right_rounded(value, -left);
+}
+
+struct Difference {
+    std::int64_t x, y, z;
+};
+
+// The difference of two positions in 32-bit units of 2^(shift + extra) coordinate units.
+struct NarrowDifference {
+    std::int64_t x, y, z; // each within ±2^30
+    int extra;
+};
+
+inline NarrowDifference narrow(const Difference& d, int shift) {
+    NarrowDifference result{shift_right_rounded(d.x, shift), shift_right_rounded(d.y, shift),
+                            shift_right_rounded(d.z, shift), 0};
+    if (fits_difference(result.x) && fits_difference(result.y) && fits_difference(result.z)) {
+        return result;
+    }
+    // A far edge. One's complement magnitudes: exact enough for a bit count, and defined for every value.
+    const std::int64_t largest = (d.x ^ (d.x >> 63)) | (d.y ^ (d.y >> 63)) | (d.z ^ (d.z >> 63));
+    // One bit of room for the rounding: |d| < 2^30 afterwards.
+    result.extra = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(largest))) - 30 - shift;
+    result.x = shift_right_rounded(d.x, shift + result.extra);
+    result.y = shift_right_rounded(d.y, shift + result.extra);
+    result.z = shift_right_rounded(d.z, shift + result.extra);
+    return result;
+}
+
+// value / len in Direction format, where 1/len = y·2^(k−62); within ±2^32, far beyond the clamp.
+inline std::int64_t over_length(std::int64_t value, std::uint32_t y, int k) {
+    constexpr std::int64_t limit = std::int64_t{1} << 32;
+    const std::int64_t product = std::clamp(value, -(limit >> 1), limit >> 1) * static_cast<std::int64_t>(y);
+    const int shift = 32 - k; // 1 .. 32
+    return std::clamp(shift_right_rounded(product, shift), -limit, limit);
+}
+
+// min(L/len, 2) in Direction format, rounded down.
+inline std::int64_t rest_ratio(std::uint32_t rest_mantissa, std::uint32_t y, int shift) {
+    constexpr std::uint64_t two = 2 * std::uint64_t{direction_one};
+    const std::uint64_t product = std::uint64_t{rest_mantissa} * y;
+    const std::uint64_t ratio = shift <= 0 ? two : shift >= 64 ? 0 : product >> shift;
+    return static_cast<std::int64_t>(std::min(ratio, two));
+}
+
+inline std::int64_t unit_multiply(std::uint32_t unit, std::int64_t value) {
+    return shift_right_rounded(value * static_cast<std::int64_t>(unit), unit_fraction_bits);
+}
+
+template <bool equal_shares, bool soft, bool damped, bool multiplier>
+class Projection {
+public:
+    explicit Projection(const DistanceTask& task)
+        : rest_mantissas_(task.rest_mantissas), shares_a_(task.shares_a), shares_b_(task.shares_b),
+          relaxations_(task.relaxations), parameters_(task.parameters), arrays_(task.arrays) {}
+
+    void operator()(std::uint32_t constraint, std::uint32_t a, std::uint32_t b) const {
+        const Difference wide{wrapping_subtract(arrays_.x[a], arrays_.x[b]),
+                              wrapping_subtract(arrays_.y[a], arrays_.y[b]),
+                              wrapping_subtract(arrays_.z[a], arrays_.z[b])};
+        const NarrowDifference d = narrow(wide, parameters_.difference_shift);
+        const std::uint64_t u = static_cast<std::uint64_t>(d.x * d.x) +
+                                static_cast<std::uint64_t>(d.y * d.y) + static_cast<std::uint64_t>(d.z * d.z);
+        if (u == 0) {
+            return;
+        }
+        const fixed::ReciprocalLength reciprocal = fixed::projection_reciprocal_length(u);
+        const std::uint32_t y = reciprocal.mantissa;
+        const int k = reciprocal.shift;
+
+        std::int64_t f =
+            rest_ratio(rest_mantissas_[constraint], y, 32 + parameters_.rest_exponent + d.extra - k) -
+            direction_one;
+        const int scale = parameters_.difference_shift + d.extra;
+        if constexpr (soft) {
+            f = soft_correction(f, constraint, a, b, d, y, k, scale);
+        }
+        if constexpr (multiplier) {
+            arrays_.multipliers[constraint] =
+                wrapping_add(arrays_.multipliers[constraint], length_of(f, u, y, k, scale));
+        }
+        apply(constraint, a, b, d, f);
+    }
+
+private:
+    // f in Direction format from the relative error g = L/len − 1.
+    std::int64_t soft_correction(std::int64_t g, std::uint32_t constraint, std::uint32_t a, std::uint32_t b,
+                                 const NarrowDifference& d, std::uint32_t y, int k, int scale) const {
+        std::int64_t f = unit_multiply(parameters_.error_share, g);
+        if constexpr (multiplier) {
+            if (relaxations_ != nullptr) {
+                const std::int64_t length = std::clamp<std::int64_t>(
+                    shift_right_rounded(arrays_.multipliers[constraint], scale), -INT32_MAX, INT32_MAX);
+                f -= over_length(unit_multiply(relaxations_[constraint], length), y, k);
+            }
+        }
+        if constexpr (damped) {
+            const std::int64_t motion = over_length(normal_motion(a, b, d, y, k, scale), y, k);
+            f -= unit_multiply(parameters_.damping_share,
+                               std::clamp<std::int64_t>(motion, -INT32_MAX, INT32_MAX));
+        }
+        return std::clamp<std::int64_t>(f, -direction_one, direction_one);
+    }
+
+    // n·(Δx_a − Δx_b) since the start of the substep, in difference units.
+    std::int64_t normal_motion(std::uint32_t a, std::uint32_t b, const NarrowDifference& d, std::uint32_t y,
+                               int k, int scale) const {
+        constexpr std::int64_t limit = std::int64_t{1} << 29; // keeps the dot product within 64 bits
+        const auto motion = [&](const std::int64_t* now, const std::int64_t* start) {
+            const std::int64_t difference =
+                wrapping_subtract(wrapping_subtract(now[a], start[a]), wrapping_subtract(now[b], start[b]));
+            return std::clamp(shift_right_rounded(difference, scale), -limit, limit);
+        };
+        const std::int64_t dot = d.x * motion(arrays_.x, arrays_.start_x) +
+                                 d.y * motion(arrays_.y, arrays_.start_y) +
+                                 d.z * motion(arrays_.z, arrays_.start_z);
+        // |dot| ≤ len·|motion| with len < 2^(32−k): the shift leaves at most 31 bits, and y brings 31 more.
+        return shift_right_rounded(shift_right_rounded(dot, 32 - k) * static_cast<std::int64_t>(y), 30);
+    }
+
+    // f·len in Coordinate format.
+    static std::int64_t length_of(std::int64_t f, std::uint64_t u, std::uint32_t y, int k, int scale) {
+        const std::uint64_t m = (u << (2 * k)) >> 32;               // Q2.30 in [1, 4)
+        const auto root = static_cast<std::int64_t>((m * y) >> 31); // √m in Q1.30
+        return shift_either_way(f * root, scale - k - 29);
+    }
+
+    void apply(std::uint32_t constraint, std::uint32_t a, std::uint32_t b, const NarrowDifference& d,
+               std::int64_t f) const {
+        if (equal_shares || shares_a_[constraint] == shares_b_[constraint]) {
+            move_alike(shares_a_[constraint], a, b, d, f);
+        } else {
+            move_by_share(shares_a_[constraint], shares_b_[constraint], a, b, d, f);
+        }
+    }
+
+    // Both ends by the same rounded correction: linear momentum is kept to the bit.
+    void move_alike(std::uint32_t share, std::uint32_t a, std::uint32_t b, const NarrowDifference& d,
+                    std::int64_t f) const {
+        const std::int64_t gain =
+            shift_right_rounded(static_cast<std::int64_t>(share) * f, parameters_.gain_shift);
+        const int left = d.extra - parameters_.product_shift;
+        const auto move = [&](std::int64_t* x, std::int64_t difference) {
+            const std::int64_t correction =
+                left == 0 ? difference * gain : shift_either_way(difference * gain, left);
+            x[a] = wrapping_add(x[a], correction);
+            x[b] = wrapping_subtract(x[b], correction);
+        };
+        move(arrays_.x, d.x);
+        move(arrays_.y, d.y);
+        move(arrays_.z, d.z);
+    }
+
+    // Each end by its share, with 31 more bits of the gain: gains rounded apart would push the whole object.
+    void move_by_share(std::uint32_t share_a, std::uint32_t share_b, std::uint32_t a, std::uint32_t b,
+                       const NarrowDifference& d, std::int64_t f) const {
+        const LongGain gain_a = long_gain(share_a, f);
+        const LongGain gain_b = long_gain(share_b, f);
+        const int left = d.extra - parameters_.product_shift;
+        const auto correction = [left](std::int64_t difference, const LongGain& gain) {
+            const std::int64_t product = difference * gain.high + ((difference * gain.low) >> 31);
+            return left == 0 ? product : shift_either_way(product, left);
+        };
+        const auto move = [&](std::int64_t* x, std::int64_t difference) {
+            x[a] = wrapping_add(x[a], correction(difference, gain_a));
+            x[b] = wrapping_subtract(x[b], correction(difference, gain_b));
+        };
+        move(arrays_.x, d.x);
+        move(arrays_.y, d.y);
+        move(arrays_.z, d.z);
+    }
+
+    struct LongGain {
+        std::int64_t high; // as a gain, rounded down
+        std::int64_t low;  // 31 bits more
+    };
+
+    LongGain long_gain(std::uint32_t share, std::int64_t f) const {
+        const std::int64_t product = static_cast<std::int64_t>(share) * f;
+        return {product >> parameters_.gain_shift,
+                (product >> (parameters_.gain_shift - 31)) & std::int64_t{INT32_MAX}};
+    }
+
+    const std::uint32_t* rest_mantissas_;
+    const std::uint32_t* shares_a_;
+    const std::uint32_t* shares_b_;
+    const std::uint32_t* relaxations_;
+    DistanceParameters parameters_;
+    DistanceArrays arrays_;
+};
+
+} // namespace
+} // namespace lks

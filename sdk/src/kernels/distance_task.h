@@ -1,0 +1,57 @@
+// A piece of work for a distance kernel: a range of one batch. Plain data, and no functions: kernels are
+// compiled for instruction sets that not every machine has, and what they share with others must not be code.
+#pragma once
+
+#include <cstdint>
+
+#include "asset/constraint_runs.h"
+
+namespace lks {
+
+struct DistanceArrays {
+    std::int64_t* x;
+    std::int64_t* y;
+    std::int64_t* z;
+    // At the start of the substep; read only where there is damping.
+    const std::int64_t* start_x;
+    const std::int64_t* start_y;
+    const std::int64_t* start_z;
+    // Λ by constraint in Coordinate format; null where nobody needs it.
+    std::int64_t* multipliers;
+};
+
+// What is the same for all constraints of a batch.
+struct DistanceParameters {
+    std::int32_t difference_shift; // s
+    std::int32_t rest_exponent;
+    std::int32_t gain_shift;    // Unit × Direction product to gain, 31 .. 41
+    std::int32_t product_shift; // gain × difference product to Coordinate
+    std::uint32_t error_share;
+    std::uint32_t damping_share;
+};
+
+// Constraints of one batch, which may be taken in any order and by any thread.
+struct ConstraintRange {
+    std::uint32_t first;
+    std::uint32_t last; // one behind
+};
+
+struct DistanceTask {
+    ConstraintRange range;
+    const Run* runs; // those that reach into the range, in order, and then perhaps others
+    std::uint32_t run_count;
+    std::uint32_t first_single; // constraint: from here on its ends are in `constraints`
+    const Constraint* constraints;
+    // By constraint.
+    const std::uint32_t* rest_mantissas;
+    const std::uint32_t* shares_a;
+    const std::uint32_t* shares_b;
+    const std::uint32_t* relaxations; // null where needless
+    DistanceParameters parameters;
+    DistanceArrays arrays;
+    bool equal_shares; // throughout
+    bool soft;
+    bool damped;
+};
+
+} // namespace lks

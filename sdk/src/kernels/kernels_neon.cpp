@@ -1,0 +1,15 @@
+#include "kernels/compiled_kernels.h"
+
+#if defined(LKS_HAS_NEON)
+
+#include "kernels/distance_lanes.h"
+#include "kernels/lanes_neon.h"
+#include "kernels/prediction_lanes.h"
+
+namespace lks {
+
+const Kernels kernels_neon{LKS_SIMD_NEON, project_lanes<LanesNeon>, predict_lanes<LanesNeon>};
+
+} // namespace lks
+
+#endif

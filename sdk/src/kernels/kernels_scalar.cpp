@@ -1,0 +1,9 @@
+#include "kernels/compiled_kernels.h"
+#include "kernels/distance_scalar_loop.h"
+#include "kernels/prediction_scalar.h"
+
+namespace lks {
+
+const Kernels kernels_scalar{LKS_SIMD_SCALAR, project_scalar, predict_scalar};
+
+} // namespace lks

@@ -1,0 +1,15 @@
+#include "kernels/compiled_kernels.h"
+
+#if defined(LKS_HAS_WASM)
+
+#include "kernels/distance_lanes.h"
+#include "kernels/lanes_wasm.h"
+#include "kernels/prediction_lanes.h"
+
+namespace lks {
+
+const Kernels kernels_wasm{LKS_SIMD_WASM, project_lanes<LanesWasm>, predict_lanes<LanesWasm>};
+
+} // namespace lks
+
+#endif

@@ -1,0 +1,108 @@
+// Four 64-bit lanes: AVX2.
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+namespace lks {
+namespace {
+
+struct LanesAvx2 {
+    static constexpr std::uint32_t half = 4;
+    using Register = __m256i;
+    using Shift = __m128i;
+    static constexpr bool has_signed_shift = false;
+
+    static Register load(const std::int64_t* p) {
+        return _mm256_loadu_si256(reinterpret_cast<const Register*>(p));
+    }
+    static void store(std::int64_t* p, Register v) { _mm256_storeu_si256(reinterpret_cast<Register*>(p), v); }
+    static Register load_widened(const std::uint32_t* p) {
+        return _mm256_cvtepu32_epi64(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
+    }
+    static Register gather(const std::int64_t* p, const std::uint32_t* at) {
+        return _mm256_set_epi64x(p[at[3]], p[at[2]], p[at[1]], p[at[0]]);
+    }
+    static Register gather_widened(const std::uint32_t* p, const std::uint32_t* at) {
+        return _mm256_set_epi64x(p[at[3]], p[at[2]], p[at[1]], p[at[0]]);
+    }
+    static Register set(std::int64_t value) { return _mm256_set1_epi64x(value); }
+    static Register set_32(std::int32_t value) { return _mm256_set1_epi32(value); }
+    static Shift make_shift(int count) { return _mm_cvtsi32_si128(count); }
+
+    static Register add(Register a, Register b) { return _mm256_add_epi64(a, b); }
+    static Register subtract(Register a, Register b) { return _mm256_sub_epi64(a, b); }
+    static Register shift_right(Register v, Shift count) { return _mm256_srl_epi64(v, count); }
+    template <int count>
+    static Register shift_right(Register v) {
+        return _mm256_srli_epi64(v, count);
+    }
+    static Register shift_right_each(Register v, Register counts) { return _mm256_srlv_epi64(v, counts); }
+    static Register shift_left_each(Register v, Register counts) { return _mm256_sllv_epi64(v, counts); }
+    static Register equal(Register a, Register b) { return _mm256_cmpeq_epi64(a, b); }
+    // b where the 64-bit lane of `sign` is negative.
+    static Register select_by_sign(Register a, Register b, Register sign) {
+        return _mm256_castpd_si256(
+            _mm256_blendv_pd(_mm256_castsi256_pd(a), _mm256_castsi256_pd(b), _mm256_castsi256_pd(sign)));
+    }
+
+    // Of the low halves of 64-bit lanes.
+    static Register multiply_signed(Register a, Register b) { return _mm256_mul_epi32(a, b); }
+    static Register multiply_unsigned(Register a, Register b) { return _mm256_mul_epu32(a, b); }
+    // Even 32-bit lanes from a's high halves, odd ones from b's.
+    static Register high_halves(Register a, Register b) {
+        return _mm256_blend_epi32(_mm256_srli_epi64(a, 32), b, 0xaa);
+    }
+
+    static Register add_32(Register a, Register b) { return _mm256_add_epi32(a, b); }
+    static Register subtract_32(Register a, Register b) { return _mm256_sub_epi32(a, b); }
+    static Register equal_32(Register a, Register b) { return _mm256_cmpeq_epi32(a, b); }
+    static Register multiply_low_32(Register a, Register b) { return _mm256_mullo_epi32(a, b); }
+    template <int count>
+    static Register shift_left_32(Register v) {
+        return _mm256_slli_epi32(v, count);
+    }
+    template <int count>
+    static Register shift_right_32(Register v) {
+        return _mm256_srli_epi32(v, count);
+    }
+    template <int count>
+    static Register shift_right_32_signed(Register v) {
+        return _mm256_srai_epi32(v, count);
+    }
+    static Register select_by_sign_32(Register a, Register b, Register sign) {
+        return _mm256_castps_si256(
+            _mm256_blendv_ps(_mm256_castsi256_ps(a), _mm256_castsi256_ps(b), _mm256_castsi256_ps(sign)));
+    }
+    // Of positive numbers. With the bit below the leading one cleared the conversion never rounds up, and its
+    // exponent is the place of that bit in every rounding mode.
+    static Register leading_zeros_32(Register v) {
+        const Register lone = _mm256_andnot_si256(_mm256_srli_epi32(v, 1), v);
+        const Register exponent = _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps(lone)), 23);
+        return _mm256_sub_epi32(_mm256_set1_epi32(158), exponent);
+    }
+    static Register lookup(const std::uint32_t (&table)[8], Register index) {
+        return _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const Register*>(table)),
+                                           index);
+    }
+
+    static Register add_16(Register a, Register b) { return _mm256_add_epi16(a, b); }
+    static Register rounding_multiply_16(Register a, Register b) { return _mm256_mulhrs_epi16(a, b); }
+    template <int count>
+    static Register shift_right_16_signed(Register v) {
+        return _mm256_srai_epi16(v, count);
+    }
+
+    static Register bit_and(Register a, Register b) { return _mm256_and_si256(a, b); }
+    static Register bit_or(Register a, Register b) { return _mm256_or_si256(a, b); }
+    static Register exclusive_or(Register a, Register b) { return _mm256_xor_si256(a, b); }
+    static Register and_not(Register mask, Register v) { return _mm256_andnot_si256(mask, v); }
+    static bool any_negative(Register v) { return _mm256_movemask_pd(_mm256_castsi256_pd(v)) != 0; }
+    static bool any(Register v) { return _mm256_testz_si256(v, v) == 0; }
+    // Every bit is set.
+    static bool all(Register v) { return _mm256_testc_si256(v, _mm256_set1_epi32(-1)) != 0; }
+};
+
+} // namespace
+} // namespace lks

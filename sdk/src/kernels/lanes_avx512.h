@@ -1,0 +1,108 @@
+// Eight 64-bit lanes: AVX-512 F, BW, CD, DQ and VL.
+#pragma once
+
+#if defined(__GNUC__) && !defined(__clang__)
+// g++ 12 warns of the undefined registers in its own header (GCC PR 105593).
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+#include <immintrin.h>
+
+#include <cstdint>
+
+namespace lks {
+namespace {
+
+struct LanesAvx512 {
+    static constexpr std::uint32_t half = 8;
+    using Register = __m512i;
+    using Shift = __m128i;
+    static constexpr bool has_signed_shift = true;
+
+    static Register load(const std::int64_t* p) { return _mm512_loadu_si512(p); }
+    static void store(std::int64_t* p, Register v) { _mm512_storeu_si512(p, v); }
+    static Register load_widened(const std::uint32_t* p) {
+        return _mm512_cvtepu32_epi64(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
+    }
+    static Register gather(const std::int64_t* p, const std::uint32_t* at) {
+        return _mm512_set_epi64(p[at[7]], p[at[6]], p[at[5]], p[at[4]], p[at[3]], p[at[2]], p[at[1]],
+                                p[at[0]]);
+    }
+    static Register gather_widened(const std::uint32_t* p, const std::uint32_t* at) {
+        return _mm512_set_epi64(p[at[7]], p[at[6]], p[at[5]], p[at[4]], p[at[3]], p[at[2]], p[at[1]],
+                                p[at[0]]);
+    }
+    static Register set(std::int64_t value) { return _mm512_set1_epi64(value); }
+    static Register set_32(std::int32_t value) { return _mm512_set1_epi32(value); }
+    static Shift make_shift(int count) { return _mm_cvtsi32_si128(count); }
+
+    static Register add(Register a, Register b) { return _mm512_add_epi64(a, b); }
+    static Register subtract(Register a, Register b) { return _mm512_sub_epi64(a, b); }
+    static Register shift_right(Register v, Shift count) { return _mm512_srl_epi64(v, count); }
+    static Register shift_right_signed(Register v, Shift count) { return _mm512_sra_epi64(v, count); }
+    template <int count>
+    static Register shift_right(Register v) {
+        return _mm512_srli_epi64(v, count);
+    }
+    static Register shift_right_each(Register v, Register counts) { return _mm512_srlv_epi64(v, counts); }
+    static Register shift_left_each(Register v, Register counts) { return _mm512_sllv_epi64(v, counts); }
+    static Register equal(Register a, Register b) { return _mm512_movm_epi64(_mm512_cmpeq_epi64_mask(a, b)); }
+    // b where the 64-bit lane of `sign` is negative.
+    static Register select_by_sign(Register a, Register b, Register sign) {
+        return _mm512_mask_blend_epi64(_mm512_movepi64_mask(sign), a, b);
+    }
+
+    // Of the low halves of 64-bit lanes.
+    static Register multiply_signed(Register a, Register b) { return _mm512_mul_epi32(a, b); }
+    static Register multiply_unsigned(Register a, Register b) { return _mm512_mul_epu32(a, b); }
+    // Even 32-bit lanes from a's high halves, odd ones from b's.
+    static Register high_halves(Register a, Register b) {
+        return _mm512_mask_blend_epi32(0xaaaa, _mm512_srli_epi64(a, 32), b);
+    }
+
+    static Register add_32(Register a, Register b) { return _mm512_add_epi32(a, b); }
+    static Register subtract_32(Register a, Register b) { return _mm512_sub_epi32(a, b); }
+    static Register equal_32(Register a, Register b) {
+        return _mm512_movm_epi32(_mm512_cmpeq_epi32_mask(a, b));
+    }
+    static Register multiply_low_32(Register a, Register b) { return _mm512_mullo_epi32(a, b); }
+    template <int count>
+    static Register shift_left_32(Register v) {
+        return _mm512_slli_epi32(v, count);
+    }
+    template <int count>
+    static Register shift_right_32(Register v) {
+        return _mm512_srli_epi32(v, count);
+    }
+    template <int count>
+    static Register shift_right_32_signed(Register v) {
+        return _mm512_srai_epi32(v, count);
+    }
+    static Register select_by_sign_32(Register a, Register b, Register sign) {
+        return _mm512_mask_blend_epi32(_mm512_movepi32_mask(sign), a, b);
+    }
+    static Register leading_zeros_32(Register v) { return _mm512_lzcnt_epi32(v); }
+    static Register lookup(const std::uint32_t (&table)[8], Register index) {
+        return _mm512_permutexvar_epi32(
+            index, _mm512_broadcast_i64x4(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(table))));
+    }
+
+    static Register add_16(Register a, Register b) { return _mm512_add_epi16(a, b); }
+    static Register rounding_multiply_16(Register a, Register b) { return _mm512_mulhrs_epi16(a, b); }
+    template <int count>
+    static Register shift_right_16_signed(Register v) {
+        return _mm512_srai_epi16(v, count);
+    }
+
+    static Register bit_and(Register a, Register b) { return _mm512_and_si512(a, b); }
+    static Register bit_or(Register a, Register b) { return _mm512_or_si512(a, b); }
+    static Register exclusive_or(Register a, Register b) { return _mm512_xor_si512(a, b); }
+    static Register and_not(Register mask, Register v) { return _mm512_andnot_si512(mask, v); }
+    static bool any_negative(Register v) { return _mm512_movepi64_mask(v) != 0; }
+    static bool any(Register v) { return _mm512_test_epi64_mask(v, v) != 0; }
+    // Every bit is set.
+    static bool all(Register v) { return _mm512_cmpneq_epi64_mask(v, _mm512_set1_epi64(-1)) == 0; }
+};
+
+} // namespace
+} // namespace lks
