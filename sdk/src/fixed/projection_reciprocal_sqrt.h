@@ -6,6 +6,8 @@
 // rounding_multiply (pmulhrsw, vqrdmulh), low halves of 32-bit products, and one 32×32→64 product whose high
 // half is e. Worst relative error 2^-29.42, checked over all mantissas; the gain of a correction, to which it
 // goes, has at most 30 bits. Where more is wanted there is fixed/reciprocal_sqrt.h.
+//
+// Functions have internal linkage, as kernels/distance_scalar.h says.
 #pragma once
 
 #include <bit>
@@ -41,7 +43,7 @@ inline constexpr CubicSeeds projection_seeds{
      detail::word_of(651, -41), detail::word_of(453, -26)}};
 
 // m: Q2.30 in [1, 4), that is from 2^30 to 2^32 - 1. Returns 1/sqrt(m) as Q1.31, from 2^30 to 2^31 - 1.
-constexpr std::uint32_t projection_reciprocal_sqrt(std::uint32_t m) {
+static constexpr std::uint32_t projection_reciprocal_sqrt(std::uint32_t m) {
     const std::uint32_t octave = m >> 31;
     const std::uint32_t aligned = octave != 0 ? m : m << 1;
     const std::uint32_t segment = octave << 2 | ((aligned >> 29) & 3);
@@ -60,7 +62,7 @@ constexpr std::uint32_t projection_reciprocal_sqrt(std::uint32_t m) {
 }
 
 // As reciprocal_length. u: a squared length, greater than zero.
-constexpr ReciprocalLength projection_reciprocal_length(std::uint64_t u) {
+static constexpr ReciprocalLength projection_reciprocal_length(std::uint64_t u) {
     const int shift = std::countl_zero(u) >> 1;
     const auto m = static_cast<std::uint32_t>((u << (2 * shift)) >> 32);
     return {projection_reciprocal_sqrt(m), shift};

@@ -88,7 +88,7 @@ inline constexpr detail::SeedTable reciprocal_sqrt_seeds = detail::make_reciproc
 inline constexpr detail::SeedTable reciprocal_seeds = detail::make_reciprocal_seeds();
 
 // (a * b + 2^14) >> 15, what pmulhrsw does to 16-bit lanes.
-constexpr std::int32_t rounding_multiply(std::int32_t a, std::int32_t b) {
+static constexpr std::int32_t rounding_multiply(std::int32_t a, std::int32_t b) {
     return (a * b + 0x4000) >> 15;
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "kernels/distance_scalar_loop.h"
+#include "kernels/force_inline.h"
 
 namespace lks {
 namespace {
@@ -20,20 +21,30 @@ struct Group {
 // A stretch in which both ends advance by one.
 template <typename L>
 struct RunAccess {
-    static constexpr bool contiguous = true;
     std::uint32_t constraint;
     std::uint32_t a;
     std::uint32_t b;
 
-    Group<L> load_a(const std::int64_t* x) const { return {L::load(x + a), L::load(x + a + L::half)}; }
-    Group<L> load_b(const std::int64_t* x) const { return {L::load(x + b), L::load(x + b + L::half)}; }
-    void store(std::int64_t* x, const Group<L>& at_a, const Group<L>& at_b) const {
+    LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
+        return {L::load(x + a), L::load(x + a + L::half)};
+    }
+    LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
+        return {L::load(x + b), L::load(x + b + L::half)};
+    }
+    LKS_FORCE_INLINE void store(std::int64_t* x, const Group<L>& at_a, const Group<L>& at_b) const {
         L::store(x + a, at_a.a);
         L::store(x + a + L::half, at_a.b);
         L::store(x + b, at_b.a);
         L::store(x + b + L::half, at_b.b);
     }
-    Group<L> load(const std::uint32_t* values) const {
+    LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
+        return {L::load(values + constraint), L::load(values + constraint + L::half)};
+    }
+    LKS_FORCE_INLINE void store_wide(std::int64_t* values, const Group<L>& group) const {
+        L::store(values + constraint, group.a);
+        L::store(values + constraint + L::half, group.b);
+    }
+    LKS_FORCE_INLINE Group<L> load(const std::uint32_t* values) const {
         return {L::load_widened(values + constraint), L::load_widened(values + constraint + L::half)};
     }
 };
@@ -41,7 +52,6 @@ struct RunAccess {
 // Constraints from anywhere in the batch. Lanes from `count` on repeat the first one and are not stored.
 template <typename L>
 struct ScatteredAccess {
-    static constexpr bool contiguous = false;
     static constexpr std::uint32_t lanes = 2 * L::half;
     std::uint32_t count = 0;
     std::uint32_t constraint[lanes];
@@ -61,8 +71,12 @@ struct ScatteredAccess {
             b[i] = b[0];
         }
     }
-    Group<L> load_a(const std::int64_t* x) const { return {L::gather(x, a), L::gather(x, a + L::half)}; }
-    Group<L> load_b(const std::int64_t* x) const { return {L::gather(x, b), L::gather(x, b + L::half)}; }
+    LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
+        return {L::gather(x, a), L::gather(x, a + L::half)};
+    }
+    LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
+        return {L::gather(x, b), L::gather(x, b + L::half)};
+    }
     void store(std::int64_t* x, const Group<L>& at_a, const Group<L>& at_b) const {
         std::int64_t values[2 * lanes];
         L::store(values, at_a.a);
@@ -74,7 +88,18 @@ struct ScatteredAccess {
             x[b[i]] = values[lanes + i];
         }
     }
-    Group<L> load(const std::uint32_t* values) const {
+    LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
+        return {L::gather(values, constraint), L::gather(values, constraint + L::half)};
+    }
+    void store_wide(std::int64_t* values, const Group<L>& group) const {
+        std::int64_t parts[lanes];
+        L::store(parts, group.a);
+        L::store(parts + L::half, group.b);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            values[constraint[i]] = parts[i];
+        }
+    }
+    LKS_FORCE_INLINE Group<L> load(const std::uint32_t* values) const {
         return {L::gather_widened(values, constraint), L::gather_widened(values, constraint + L::half)};
     }
 };
@@ -82,8 +107,8 @@ struct ScatteredAccess {
 // 1/√m for 32-bit lanes whose even and odd halves are also given by themselves, low in 64 bits:
 // fixed/projection_reciprocal_sqrt.h.
 template <typename L>
-inline typename L::Register reciprocal_sqrt_lanes(typename L::Register even, typename L::Register odd,
-                                                  typename L::Register m) {
+LKS_FORCE_INLINE typename L::Register
+reciprocal_sqrt_lanes(typename L::Register even, typename L::Register odd, typename L::Register m) {
     using R = typename L::Register;
     // Aligned, with the leading bit replaced by the octave.
     const R aligned = L::select_by_sign_32(L::add_32(m, L::add_32(m, L::set_32(INT32_MIN))), m, m);
@@ -118,7 +143,7 @@ public:
     explicit SignedShift(int count, std::int64_t rounding = 0)
         : count_(L::make_shift(count)), before_(L::set(rounding + lift)), after_(L::set(lift >> count)) {}
 
-    R operator()(R value) const {
+    LKS_FORCE_INLINE R operator()(R value) const {
         const R lifted = L::add(value, before_);
         if constexpr (L::has_signed_shift) {
             return L::shift_right_signed(lifted, count_);
@@ -135,83 +160,115 @@ private:
     R after_;
 };
 
-template <typename L, bool equal_shares>
-class StiffGroups {
+// What f needs of an edge beside its stretch: its groups' lengths and directions.
+template <typename L>
+struct EdgeLanes {
+    Group<L> wide[3]; // x_a − x_b
+    Group<L> d[3];
+    Group<L> u;
+    Group<L> twice_k;
+    Group<L> m; // Q2.30, low in each lane
+    Group<L> y; // low in each lane, with something else above it
+};
+
+template <typename L, bool equal_shares, bool soft, bool damped, bool multiplier>
+class DistanceGroups {
     using R = typename L::Register;
     using G = Group<L>;
+    using Edge = EdgeLanes<L>;
 
 public:
-    explicit StiffGroups(const DistanceTask& task)
+    explicit DistanceGroups(const DistanceTask& task)
         : task_(task), shift_(L::make_shift(task.parameters.difference_shift)),
           gain_shift_(task.parameters.gain_shift),
           rounded_gain_shift_(task.parameters.gain_shift,
                               std::int64_t{1} << (task.parameters.gain_shift - 1)),
           low_gain_shift_(L::make_shift(task.parameters.gain_shift - 31)),
-          bias_(L::set((std::int64_t{1} << (task.parameters.difference_shift - 1)) +
-                       (std::int64_t{1} << (task.parameters.difference_shift + 30)))),
+          product_shift_(
+              task.parameters.product_shift,
+              task.parameters.product_shift > 0 ? std::int64_t{1} << (task.parameters.product_shift - 1) : 0),
+          plain_(task.parameters.product_shift == 0), bias_(bias(task, 30)), motion_bias_(bias(task, 29)),
           ratio_shift_(L::set(32 + task.parameters.rest_exponent)),
-          gain_rounding_(L::set(std::int64_t{1} << (task.parameters.gain_shift - 1))) {}
+          gain_rounding_(L::set(std::int64_t{1} << (task.parameters.gain_shift - 1))),
+          error_share_(L::set(task.parameters.error_share)),
+          damping_share_(L::set(task.parameters.damping_share)),
+          length_shift_(L::set(30 - task.parameters.difference_shift)) {}
 
     // False, and nothing is changed: a lane needs the plain way.
     template <typename Access>
-    bool project(const Access& at) const {
+    LKS_FORCE_INLINE bool project(const Access& at) const {
         std::int64_t* const axes[3] = {task_.arrays.x, task_.arrays.y, task_.arrays.z};
-        // d + 2^30, below 2^31 unless it does not fit.
-        G d[3];
+        Edge edge;
+        R beyond = L::set(0);
         for (int axis = 0; axis < 3; ++axis) {
             const G a = at.load_a(axes[axis]);
             const G b = at.load_b(axes[axis]);
-            d[axis] = {biased_difference(a.a, b.a), biased_difference(a.b, b.b)};
+            edge.wide[axis] = {L::subtract(a.a, b.a), L::subtract(a.b, b.b)};
+            edge.d[axis] = narrow(edge.wide[axis], bias_, direction_one, beyond);
         }
-        const R too_far =
-            L::bit_and(L::bit_or(L::bit_or(L::bit_or(d[0].a, d[0].b), L::bit_or(d[1].a, d[1].b)),
-                                 L::bit_or(d[2].a, d[2].b)),
-                       L::set(~std::int64_t{INT32_MAX}));
-        for (G& difference : d) {
-            difference = {L::subtract(difference.a, L::set(direction_one)),
-                          L::subtract(difference.b, L::set(direction_one))};
-        }
-        const G u{squared_length(d[0].a, d[1].a, d[2].a), squared_length(d[0].b, d[1].b, d[2].b)};
-        const R high_u = L::high_halves(u.a, u.b);
-        if (L::any(L::bit_or(too_far, L::equal_32(high_u, L::set_32(0))))) {
+        edge.u = dot_product(edge.d, edge.d);
+        const R high_u = L::high_halves(edge.u.a, edge.u.b);
+        const R too_short = L::equal_32(high_u, L::set_32(0));
+        if (L::any(L::bit_or(too_short, L::bit_and(beyond, L::set(~std::int64_t{INT32_MAX}))))) {
             return false;
         }
-        const G f = relative_correction(u, high_u, at.load(task_.rest_mantissas));
-        if constexpr (equal_shares) {
-            move_alike(at, axes, d, f, at.load(task_.shares_a));
-        } else {
-            const G share_a = at.load(task_.shares_a);
-            const G share_b = at.load(task_.shares_b);
-            const G alike{L::equal(share_a.a, share_b.a), L::equal(share_a.b, share_b.b)};
-            if (L::all(L::bit_and(alike.a, alike.b))) {
-                move_alike(at, axes, d, f, share_a);
-            } else {
-                move_by_share(at, axes, d, f, share_a, share_b, alike);
+        measure(edge, high_u);
+        G f = relative_error(edge, at.load(task_.rest_mantissas));
+        if constexpr (soft && (damped || multiplier)) {
+            if (!soften(at, edge, f)) {
+                return false;
             }
         }
+        if constexpr (multiplier) {
+            add_to_multipliers(at, edge, f);
+        }
+        move(at, axes, edge.d, f);
         return true;
     }
 
 private:
-    R biased_difference(R a, R b) const { return L::shift_right(L::add(L::subtract(a, b), bias_), shift_); }
-
-    static R squared_length(R x, R y, R z) {
-        return L::add(L::add(L::multiply_signed(x, x), L::multiply_signed(y, y)), L::multiply_signed(z, z));
+    // Half a unit to round, and what makes 2^bits units positive.
+    LKS_FORCE_INLINE static R bias(const DistanceTask& task, int bits) {
+        return L::set((std::int64_t{1} << (task.parameters.difference_shift - 1)) +
+                      (std::int64_t{1} << (task.parameters.difference_shift + bits)));
     }
 
-    // f in Direction format, within ±2^30, as 64-bit numbers.
-    G relative_correction(const G& u, R high_u, const G& rest) const {
+    // In difference units, within ±offset; else bits above the 31st of `beyond` are set. The bias adds offset
+    // units.
+    LKS_FORCE_INLINE G narrow(const G& wide, R with_bias, std::int64_t offset, R& beyond) const {
+        const R a = L::shift_right(L::add(wide.a, with_bias), shift_);
+        const R b = L::shift_right(L::add(wide.b, with_bias), shift_);
+        // Twice the smaller offsets' lanes: the same bit tells.
+        beyond = L::bit_or(beyond, offset == direction_one ? L::bit_or(a, b)
+                                                           : L::add(L::bit_or(a, b), L::bit_or(a, b)));
+        return {L::subtract(a, L::set(offset)), L::subtract(b, L::set(offset))};
+    }
+
+    LKS_FORCE_INLINE static G dot_product(const G* v, const G* w) {
+        const auto sum = [](R x, R y, R z) { return L::add(L::add(x, y), z); };
+        return {sum(L::multiply_signed(v[0].a, w[0].a), L::multiply_signed(v[1].a, w[1].a),
+                    L::multiply_signed(v[2].a, w[2].a)),
+                sum(L::multiply_signed(v[0].b, w[0].b), L::multiply_signed(v[1].b, w[1].b),
+                    L::multiply_signed(v[2].b, w[2].b))};
+    }
+
+    LKS_FORCE_INLINE static void measure(Edge& edge, R high_u) {
         const R twice_k = L::bit_and(L::leading_zeros_32(high_u), L::set_32(~1));
-        const G twice{L::bit_and(twice_k, L::set(UINT32_MAX)), L::template shift_right<32>(twice_k)};
-        const G aligned{L::shift_left_each(u.a, twice.a), L::shift_left_each(u.b, twice.b)};
-        const R y = reciprocal_sqrt_lanes<L>(L::template shift_right<32>(aligned.a),
-                                             L::template shift_right<32>(aligned.b),
-                                             L::high_halves(aligned.a, aligned.b));
-        return {ratio_less_one(L::multiply_unsigned(rest.a, y), twice.a),
-                ratio_less_one(L::multiply_unsigned(rest.b, L::template shift_right<32>(y)), twice.b)};
+        edge.twice_k = {L::bit_and(twice_k, L::set(UINT32_MAX)), L::template shift_right<32>(twice_k)};
+        const G aligned{L::shift_left_each(edge.u.a, edge.twice_k.a),
+                        L::shift_left_each(edge.u.b, edge.twice_k.b)};
+        edge.m = {L::template shift_right<32>(aligned.a), L::template shift_right<32>(aligned.b)};
+        const R y = reciprocal_sqrt_lanes<L>(edge.m.a, edge.m.b, L::high_halves(aligned.a, aligned.b));
+        edge.y = {y, L::template shift_right<32>(y)};
     }
 
-    R ratio_less_one(R product, R twice_k) const {
+    // g = min(L/len, 2) − 1 in Direction format, as 64-bit numbers.
+    LKS_FORCE_INLINE G relative_error(const Edge& edge, const G& rest) const {
+        return {ratio_less_one(L::multiply_unsigned(rest.a, edge.y.a), edge.twice_k.a),
+                ratio_less_one(L::multiply_unsigned(rest.b, edge.y.b), edge.twice_k.b)};
+    }
+
+    LKS_FORCE_INLINE R ratio_less_one(R product, R twice_k) const {
         const R ratio =
             L::shift_right_each(product, L::subtract(ratio_shift_, L::template shift_right<1>(twice_k)));
         const R two = L::set(2 * std::int64_t{direction_one});
@@ -220,13 +277,114 @@ private:
         return L::subtract(limited, L::set(direction_one));
     }
 
+    // f from g. False: a lane leaves the fast range.
     template <typename Access>
-    void move_alike(const Access& at, std::int64_t* const* axes, const G* d, const G& f,
-                    const G& share) const {
-        const G gain{rounded_gain(share.a, f.a), rounded_gain(share.b, f.b)};
+    LKS_FORCE_INLINE bool soften(const Access& at, const Edge& edge, G& f) const {
+        R beyond = L::set(0);
+        if constexpr (damped) {
+            const std::int64_t* const starts[3] = {task_.arrays.start_x, task_.arrays.start_y,
+                                                   task_.arrays.start_z};
+            G motion[3];
+            for (int axis = 0; axis < 3; ++axis) {
+                const G a = at.load_a(starts[axis]);
+                const G b = at.load_b(starts[axis]);
+                const G wide{L::subtract(edge.wide[axis].a, L::subtract(a.a, b.a)),
+                             L::subtract(edge.wide[axis].b, L::subtract(a.b, b.b))};
+                motion[axis] = narrow(wide, motion_bias_, direction_one / 2, beyond);
+            }
+            const G dot = dot_product(edge.d, motion);
+            f = {damp(f.a, dot.a, edge.y.a, edge.twice_k.a, beyond),
+                 damp(f.b, dot.b, edge.y.b, edge.twice_k.b, beyond)};
+        }
+        if constexpr (multiplier) {
+            if (task_.relaxations != nullptr) {
+                const G lambda = at.load_wide(task_.arrays.multipliers);
+                const G length = narrow(lambda, bias_, direction_one, beyond);
+                const G relaxation = at.load(task_.relaxations);
+                f = {relax(f.a, length.a, relaxation.a, edge.y.a, edge.twice_k.a),
+                     relax(f.b, length.b, relaxation.b, edge.y.b, edge.twice_k.b)};
+            }
+        }
+        // |f| ≤ 1, but for the upper end itself.
+        beyond = L::bit_or(beyond,
+                           L::bit_or(L::add(f.a, L::set(direction_one)), L::add(f.b, L::set(direction_one))));
+        return !L::any(L::bit_and(beyond, L::set(~std::int64_t{INT32_MAX})));
+    }
+
+    // c·g − γ'·motion/len, the motion along the edge within ±len.
+    LKS_FORCE_INLINE R damp(R g, R dot, R y, R twice_k, R& beyond) const {
+        const LengthShift by(twice_k);
+        const R rounded = L::shift_right_each(L::add(dot, by.half), by.right);
+        const R along = L::template shift_right<30>(
+            L::add(L::multiply_signed(rounded, y), L::set(std::int64_t{1} << 29)));
+        const R motion = over_length(along, y, by);
+        beyond = L::bit_or(beyond, L::add(motion, L::set(direction_one)));
+        return rounded_unit_shift_(
+            L::subtract(L::multiply_signed(error_share_, g), L::multiply_signed(damping_share_, motion)));
+    }
+
+    LKS_FORCE_INLINE R relax(R f, R length, R relaxation, R y, R twice_k) const {
+        const R relaxed = rounded_unit_shift_(L::multiply_signed(relaxation, length));
+        return L::subtract(f, over_length(relaxed, y, LengthShift(twice_k)));
+    }
+
+    // By 32 − k to the right, and half of what is lost.
+    struct LengthShift {
+        explicit LengthShift(R twice_k)
+            : right(L::subtract(L::set(32), L::template shift_right<1>(twice_k))),
+              half(L::shift_left_each(L::set(1), L::subtract(right, L::set(1)))) {}
+        R right, half;
+    };
+
+    // Of values whose low halves count; the shift with its sign, by lanes.
+    LKS_FORCE_INLINE static R over_length(R value, R y, const LengthShift& by) {
+        const R lift = L::set(std::int64_t{1} << 62);
+        const R lifted = L::add(L::multiply_signed(value, y), L::add(lift, by.half));
+        return L::subtract(L::shift_right_each(lifted, by.right), L::shift_right_each(lift, by.right));
+    }
+
+    // Λ += f·len.
+    template <typename Access>
+    LKS_FORCE_INLINE void add_to_multipliers(const Access& at, const Edge& edge, const G& f) const {
+        const G lambda = at.load_wide(task_.arrays.multipliers);
+        at.store_wide(task_.arrays.multipliers,
+                      {L::add(lambda.a, length_of(f.a, edge.m.a, edge.y.a, edge.twice_k.a)),
+                       L::add(lambda.b, length_of(f.b, edge.m.b, edge.y.b, edge.twice_k.b))});
+    }
+
+    LKS_FORCE_INLINE R length_of(R f, R m, R y, R twice_k) const {
+        const R root = L::template shift_right<31>(L::multiply_unsigned(m, y));
+        const R product = L::multiply_signed(f, root);
+        const R right = L::add(length_shift_, L::template shift_right<1>(twice_k));
+        const R lift = L::set(std::int64_t{1} << 62);
+        return L::subtract(L::shift_right_each(L::add(L::add(product, product), lift), right),
+                           L::shift_right_each(lift, right));
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE void move(const Access& at, std::int64_t* const* axes, const G* d, const G& f) const {
+        const G share_a = at.load(task_.shares_a);
+        if constexpr (equal_shares) {
+            move_alike(at, axes, d, f, share_a);
+        } else {
+            const G share_b = at.load(task_.shares_b);
+            const G alike{L::equal(share_a.a, share_b.a), L::equal(share_a.b, share_b.b)};
+            if (L::all(L::bit_and(alike.a, alike.b))) {
+                move_alike(at, axes, d, f, share_a);
+            } else {
+                move_by_share(at, axes, d, f, share_a, share_b, alike);
+            }
+        }
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE void move_alike(const Access& at, std::int64_t* const* axes, const G* d, const G& f,
+                                     const G& share) const {
+        const G gain{rounded_gain_shift_(L::multiply_signed(share.a, f.a)),
+                     rounded_gain_shift_(L::multiply_signed(share.b, f.b))};
         for (int axis = 0; axis < 3; ++axis) {
-            const R correction_a = L::multiply_signed(d[axis].a, gain.a);
-            const R correction_b = L::multiply_signed(d[axis].b, gain.b);
+            const R correction_a = to_coordinate(L::multiply_signed(d[axis].a, gain.a));
+            const R correction_b = to_coordinate(L::multiply_signed(d[axis].b, gain.b));
             const G a = at.load_a(axes[axis]);
             const G b = at.load_b(axes[axis]);
             at.store(axes[axis], {L::add(a.a, correction_a), L::add(a.b, correction_b)},
@@ -234,27 +392,33 @@ private:
         }
     }
 
-    R rounded_gain(R share, R f) const { return rounded_gain_shift_(L::multiply_signed(share, f)); }
+    LKS_FORCE_INLINE R to_coordinate(R product) const {
+        if constexpr (soft) {
+            return plain_ ? product : product_shift_(product);
+        } else {
+            return product;
+        }
+    }
 
     struct LongGain {
         R high, low;
     };
 
     // Where the shares are equal: the rounded gain, and no bits behind it.
-    LongGain long_gain(R share, R f, R alike) const {
+    LKS_FORCE_INLINE LongGain long_gain(R share, R f, R alike) const {
         const R product = L::add(L::multiply_signed(share, f), L::bit_and(gain_rounding_, alike));
         const R low = L::bit_and(L::shift_right(product, low_gain_shift_), L::set(INT32_MAX));
         return {gain_shift_(product), L::and_not(alike, low)};
     }
 
-    R long_product(R difference, const LongGain& gain) const {
-        return L::add(L::multiply_signed(difference, gain.high),
-                      low_product_shift_(L::multiply_signed(difference, gain.low)));
+    LKS_FORCE_INLINE R long_product(R difference, const LongGain& gain) const {
+        return to_coordinate(L::add(L::multiply_signed(difference, gain.high),
+                                    low_product_shift_(L::multiply_signed(difference, gain.low))));
     }
 
     template <typename Access>
-    void move_by_share(const Access& at, std::int64_t* const* axes, const G* d, const G& f, const G& share_a,
-                       const G& share_b, const G& alike) const {
+    LKS_FORCE_INLINE void move_by_share(const Access& at, std::int64_t* const* axes, const G* d, const G& f,
+                                        const G& share_a, const G& share_b, const G& alike) const {
         const LongGain a_a = long_gain(share_a.a, f.a, alike.a);
         const LongGain a_b = long_gain(share_a.b, f.b, alike.b);
         const LongGain b_a = long_gain(share_b.a, f.a, alike.a);
@@ -275,16 +439,23 @@ private:
     SignedShift<L> rounded_gain_shift_;
     typename L::Shift low_gain_shift_;
     SignedShift<L> low_product_shift_{31};
+    SignedShift<L> rounded_unit_shift_{unit_fraction_bits, std::int64_t{1} << (unit_fraction_bits - 1)};
+    SignedShift<L> product_shift_;
+    bool plain_;
     R bias_;
+    R motion_bias_;
     R ratio_shift_;
     R gain_rounding_;
+    R error_share_;
+    R damping_share_;
+    R length_shift_;
 };
 
-template <typename L, bool equal_shares>
-inline void project_stiff_lanes(const DistanceTask& task) {
+template <typename L, bool equal_shares, bool soft, bool damped, bool multiplier>
+inline void project_in_groups(const DistanceTask& task) {
     constexpr std::uint32_t lanes = 2 * L::half;
-    const StiffGroups<L, equal_shares> groups(task);
-    const Projection<equal_shares, false, false, false> project_one(task);
+    const DistanceGroups<L, equal_shares, soft, damped, multiplier> groups(task);
+    const Projection<equal_shares, soft, damped, multiplier> project_one(task);
     ScatteredAccess<L> scattered;
     const auto project_scattered = [&] {
         scattered.fill_up();
@@ -322,14 +493,25 @@ inline void project_stiff_lanes(const DistanceTask& task) {
     }
 }
 
+template <typename L, bool equal_shares, bool multiplier>
+inline void project_family_in_groups(const DistanceTask& task) {
+    if (!task.soft) {
+        project_in_groups<L, equal_shares, false, false, multiplier>(task);
+    } else if (!task.damped) {
+        project_in_groups<L, equal_shares, true, false, multiplier>(task);
+    } else {
+        project_in_groups<L, equal_shares, true, true, multiplier>(task);
+    }
+}
+
 template <typename L>
 inline void project_lanes(const DistanceTask& task) {
-    if (task.soft || task.arrays.multipliers != nullptr) {
-        project_scalar(task);
-    } else if (task.equal_shares) {
-        project_stiff_lanes<L, true>(task);
+    if (task.arrays.multipliers == nullptr) {
+        task.equal_shares ? project_family_in_groups<L, true, false>(task)
+                          : project_family_in_groups<L, false, false>(task);
     } else {
-        project_stiff_lanes<L, false>(task);
+        task.equal_shares ? project_family_in_groups<L, true, true>(task)
+                          : project_family_in_groups<L, false, true>(task);
     }
 }
 

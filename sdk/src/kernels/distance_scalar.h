@@ -56,12 +56,9 @@ inline NarrowDifference narrow(const Difference& d, int shift) {
     return result;
 }
 
-// value / len in Direction format, where 1/len = y·2^(k−62); within ±2^32, far beyond the clamp.
+// value / len in Direction format, where 1/len = y·2^(k−62); |value| ≤ 2^31.
 inline std::int64_t over_length(std::int64_t value, std::uint32_t y, int k) {
-    constexpr std::int64_t limit = std::int64_t{1} << 32;
-    const std::int64_t product = std::clamp(value, -(limit >> 1), limit >> 1) * static_cast<std::int64_t>(y);
-    const int shift = 32 - k; // 1 .. 32
-    return std::clamp(shift_right_rounded(product, shift), -limit, limit);
+    return shift_right_rounded(value * static_cast<std::int64_t>(y), 32 - k); // 1 .. 32
 }
 
 // min(L/len, 2) in Direction format, rounded down.
@@ -115,18 +112,20 @@ private:
     // f in Direction format from the relative error g = L/len − 1.
     std::int64_t soft_correction(std::int64_t g, std::uint32_t constraint, std::uint32_t a, std::uint32_t b,
                                  const NarrowDifference& d, std::uint32_t y, int k, int scale) const {
-        std::int64_t f = unit_multiply(parameters_.error_share, g);
+        std::int64_t f = g;
+        if constexpr (damped) {
+            const std::int64_t motion = std::clamp<std::int64_t>(
+                over_length(normal_motion(a, b, d, y, k, scale), y, k), -INT32_MAX, INT32_MAX);
+            f = shift_right_rounded(static_cast<std::int64_t>(parameters_.error_share) * g -
+                                        static_cast<std::int64_t>(parameters_.damping_share) * motion,
+                                    unit_fraction_bits);
+        }
         if constexpr (multiplier) {
             if (relaxations_ != nullptr) {
                 const std::int64_t length = std::clamp<std::int64_t>(
                     shift_right_rounded(arrays_.multipliers[constraint], scale), -INT32_MAX, INT32_MAX);
                 f -= over_length(unit_multiply(relaxations_[constraint], length), y, k);
             }
-        }
-        if constexpr (damped) {
-            const std::int64_t motion = over_length(normal_motion(a, b, d, y, k, scale), y, k);
-            f -= unit_multiply(parameters_.damping_share,
-                               std::clamp<std::int64_t>(motion, -INT32_MAX, INT32_MAX));
         }
         return std::clamp<std::int64_t>(f, -direction_one, direction_one);
     }
@@ -137,21 +136,24 @@ private:
         constexpr std::int64_t limit = std::int64_t{1} << 29; // keeps the dot product within 64 bits
         const auto motion = [&](const std::int64_t* now, const std::int64_t* start) {
             const std::int64_t difference =
-                wrapping_subtract(wrapping_subtract(now[a], start[a]), wrapping_subtract(now[b], start[b]));
+                wrapping_subtract(wrapping_subtract(now[a], now[b]), wrapping_subtract(start[a], start[b]));
             return std::clamp(shift_right_rounded(difference, scale), -limit, limit);
         };
         const std::int64_t dot = d.x * motion(arrays_.x, arrays_.start_x) +
                                  d.y * motion(arrays_.y, arrays_.start_y) +
                                  d.z * motion(arrays_.z, arrays_.start_z);
         // |dot| ≤ len·|motion| with len < 2^(32−k): the shift leaves at most 31 bits, and y brings 31 more.
+        // Rounded: a floor would damp what does not move.
         return shift_right_rounded(shift_right_rounded(dot, 32 - k) * static_cast<std::int64_t>(y), 30);
     }
 
-    // f·len in Coordinate format.
+    // f·len in Coordinate format, rounded down.
     static std::int64_t length_of(std::int64_t f, std::uint64_t u, std::uint32_t y, int k, int scale) {
         const std::uint64_t m = (u << (2 * k)) >> 32;               // Q2.30 in [1, 4)
         const auto root = static_cast<std::int64_t>((m * y) >> 31); // √m in Q1.30
-        return shift_either_way(f * root, scale - k - 29);
+        const int right = 30 + k - scale;
+        const std::int64_t twice = 2 * f * root;
+        return right >= 0 ? twice >> right : shift_either_way(twice, -right);
     }
 
     void apply(std::uint32_t constraint, std::uint32_t a, std::uint32_t b, const NarrowDifference& d,

@@ -23,15 +23,10 @@ FamilyTerms family_terms(const Family& family, const StepRate& rate) {
     return terms;
 }
 
-// A share: below one by a unit at most, so that it is a positive 32-bit integer in the kernels.
-std::uint32_t to_share(const Scaled& value, int extra_bits) {
+// Unit, and below one by a unit at least, so that it is a positive 32-bit integer in the kernels.
+std::uint32_t to_share(const Scaled& value, int extra_bits = 0) {
     const std::uint64_t raw = value.to_fixed(unit_fraction_bits + extra_bits);
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(raw, unit_one - 1));
-}
-
-std::uint32_t to_unit(const Scaled& value) {
-    const std::uint64_t raw = value.to_fixed(unit_fraction_bits);
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(raw, unit_one));
 }
 
 Scaled inverse_mass(const lks_asset& asset, const PinnedParticles& pinned, std::uint32_t particle) {
@@ -61,8 +56,8 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
         const Family& family = asset.families[f];
         terms[f] = family_terms(family, rate);
         families[f].soft = family.enabled && !family.compliance.is_zero();
-        families[f].error_share = to_unit(Scaled::from_u64(1) / terms[f].one_plus_gamma);
-        families[f].damping_share = to_unit(terms[f].gamma / terms[f].one_plus_gamma);
+        families[f].error_share = to_share(Scaled::from_u64(1) / terms[f].one_plus_gamma);
+        families[f].damping_share = to_share(terms[f].gamma / terms[f].one_plus_gamma);
         any_soft = any_soft || families[f].soft;
     }
     // In the first iteration of a substep Λ is zero, so r plays no part.
@@ -140,7 +135,7 @@ void Coefficients::update_constraint(const lks_asset& asset, const StepRate& rat
         shares_b[constraint] = to_share(w_b / effective, exponent);
     }
     if (!relaxations.empty()) {
-        relaxations[constraint] = effective.is_zero() ? 0 : to_unit(terms.softness / effective);
+        relaxations[constraint] = effective.is_zero() ? 0 : to_share(terms.softness / effective);
     }
 }
 
