@@ -39,7 +39,7 @@ uint64_t lks_world_local_hash(const lks_world* world) {
 
 uint64_t lks_object_hash(const lks_world* world, lks_object_id object) {
     const Object* found = world == nullptr ? nullptr : world->find_object(object);
-    return found == nullptr ? 0 : hash_object(*found);
+    return found == nullptr ? 0 : hash_object(*found, *world->kernels);
 }
 
 lks_result lks_world_save_size(const lks_world* world, size_t* size) {

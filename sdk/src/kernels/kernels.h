@@ -13,6 +13,8 @@ struct Kernels {
     lks_simd level;
     void (*project_distances)(const DistanceTask& task);
     PredictionClamps (*predict)(const PredictionTask& task);
+    // XXH3_64bits_update.
+    void (*hash_update)(void* state, const void* bytes, std::size_t size);
 };
 
 // Null where this build or this CPU has not got the level. LKS_SIMD_AUTO: the best there is, or what the

@@ -3,12 +3,13 @@
 #if defined(LKS_HAS_AVX2)
 
 #include "kernels/distance_lanes.h"
+#include "kernels/hash_update.h"
 #include "kernels/lanes_avx2.h"
 #include "kernels/prediction_lanes.h"
 
 namespace lks {
 
-const Kernels kernels_avx2{LKS_SIMD_AVX2, project_lanes<LanesAvx2>, predict_lanes<LanesAvx2>};
+const Kernels kernels_avx2{LKS_SIMD_AVX2, project_lanes<LanesAvx2>, predict_lanes<LanesAvx2>, hash_update};
 
 } // namespace lks
 

@@ -3,12 +3,13 @@
 #if defined(LKS_HAS_NEON)
 
 #include "kernels/distance_lanes.h"
+#include "kernels/hash_update.h"
 #include "kernels/lanes_neon.h"
 #include "kernels/prediction_lanes.h"
 
 namespace lks {
 
-const Kernels kernels_neon{LKS_SIMD_NEON, project_lanes<LanesNeon>, predict_lanes<LanesNeon>};
+const Kernels kernels_neon{LKS_SIMD_NEON, project_lanes<LanesNeon>, predict_lanes<LanesNeon>, hash_update};
 
 } // namespace lks
 

@@ -1,9 +1,10 @@
 #include "kernels/compiled_kernels.h"
 #include "kernels/distance_scalar_loop.h"
+#include "kernels/hash_update.h"
 #include "kernels/prediction_scalar.h"
 
 namespace lks {
 
-const Kernels kernels_scalar{LKS_SIMD_SCALAR, project_scalar, predict_scalar};
+const Kernels kernels_scalar{LKS_SIMD_SCALAR, project_scalar, predict_scalar, hash_update};
 
 } // namespace lks

@@ -3,12 +3,14 @@
 #if defined(LKS_HAS_SSE41)
 
 #include "kernels/distance_lanes.h"
+#include "kernels/hash_update.h"
 #include "kernels/lanes_sse41.h"
 #include "kernels/prediction_lanes.h"
 
 namespace lks {
 
-const Kernels kernels_sse41{LKS_SIMD_SSE41, project_lanes<LanesSse41>, predict_lanes<LanesSse41>};
+const Kernels kernels_sse41{LKS_SIMD_SSE41, project_lanes<LanesSse41>, predict_lanes<LanesSse41>,
+                            hash_update};
 
 } // namespace lks
 

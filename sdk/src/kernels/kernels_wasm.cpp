@@ -3,12 +3,13 @@
 #if defined(LKS_HAS_WASM)
 
 #include "kernels/distance_lanes.h"
+#include "kernels/hash_update.h"
 #include "kernels/lanes_wasm.h"
 #include "kernels/prediction_lanes.h"
 
 namespace lks {
 
-const Kernels kernels_wasm{LKS_SIMD_WASM, project_lanes<LanesWasm>, predict_lanes<LanesWasm>};
+const Kernels kernels_wasm{LKS_SIMD_WASM, project_lanes<LanesWasm>, predict_lanes<LanesWasm>, hash_update};
 
 } // namespace lks
 

@@ -1,11 +1,6 @@
 // Eight 64-bit lanes: AVX-512 F, BW, CD, DQ and VL.
 #pragma once
 
-#if defined(__GNUC__) && !defined(__clang__)
-// g++ 12 warns of the undefined registers in its own header (GCC PR 105593).
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
 #include <immintrin.h>
 
 #include <cstdint>

@@ -1,23 +1,23 @@
 // XXH3 (64 bits) over a canonical little-endian stream: the same on every machine, and at memory speed on
-// little-endian ones.
+// little-endian ones, if it is given the update of the world's kernels.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
+#include "kernels/hash_update.h"
+#include "kernels/kernels.h"
 #include "state/bytes.h"
 
 namespace lks {
 
 class Hash {
 public:
-    Hash() { XXH3_64bits_reset(&state_); }
+    Hash() : update_(hash_update) { XXH3_64bits_reset(&state_); }
+    explicit Hash(const Kernels& kernels) : update_(kernels.hash_update) { XXH3_64bits_reset(&state_); }
 
-    void add_bytes(const void* bytes, std::size_t size) { XXH3_64bits_update(&state_, bytes, size); }
+    void add_bytes(const void* bytes, std::size_t size) { update_(&state_, bytes, size); }
     void add_u32(std::uint32_t value) { add_integer(value); }
     void add_u64(std::uint64_t value) { add_integer(value); }
     void add_i64(std::int64_t value) { add_integer(static_cast<std::uint64_t>(value)); }
@@ -50,6 +50,7 @@ private:
     }
 
     XXH3_state_t state_;
+    void (*update_)(void* state, const void* bytes, std::size_t size);
 };
 
 } // namespace lks

@@ -97,7 +97,7 @@ void write_image(const lks_world& world, unsigned char* memory) {
             write_collider(out, slot.collider);
         }
     }
-    Hash checksum;
+    Hash checksum(*world.kernels);
     checksum.add_bytes(memory + image_checked_from, size - image_checked_from);
     ByteWriter front(memory);
     front.u64(image_magic);

@@ -37,8 +37,8 @@ void add_collider(Hash& hash, const ColliderState& collider, bool local) {
 
 } // namespace
 
-std::uint64_t hash_object(const Object& object) {
-    Hash hash;
+std::uint64_t hash_object(const Object& object, const Kernels& kernels) {
+    Hash hash(kernels);
     hash.add_u64(object.asset().fingerprint);
     hash.add_i64(object.gravity_factor);
     hash.add_i64(object.linear_damping);
@@ -57,7 +57,7 @@ std::uint64_t hash_object(const Object& object) {
 }
 
 std::uint64_t hash_world(const lks_world& world, bool local) {
-    Hash hash;
+    Hash hash(*world.kernels);
     hash.add_u32(world.rate.ticks_per_second);
     hash.add_u32(world.rate.substeps);
     hash.add_u32(world.rate.iterations);
@@ -68,7 +68,7 @@ std::uint64_t hash_world(const lks_world& world, bool local) {
         hash.add_u32(slot.generation);
         hash.add_u32(slot.object != nullptr ? 1 : 0);
         if (slot.object != nullptr) {
-            hash.add_u64(hash_object(*slot.object));
+            hash.add_u64(hash_object(*slot.object, *world.kernels));
             if (!local) {
                 add_vector(hash, slot.object->origin);
             }

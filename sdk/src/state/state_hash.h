@@ -7,7 +7,7 @@
 namespace lks {
 
 // Without the object's origin and id.
-std::uint64_t hash_object(const Object& object);
+std::uint64_t hash_object(const Object& object, const Kernels& kernels);
 
 // `local` leaves out where objects and colliders are in the world.
 std::uint64_t hash_world(const lks_world& world, bool local);
