@@ -144,7 +144,7 @@ inline std::int32_t logarithm(std::uint64_t value) {
 
 inline void lengths_are_exact(const lks_asset& asset) {
     REQUIRE(asset.rest_lengths.size() == asset.constraint_count());
-    REQUIRE(asset.rest_mantissas.size() == asset.constraint_count());
+    REQUIRE(asset.rest_mantissas.size() == asset.constraint_count() + lks::widest_group - 1);
     std::uint32_t wrong_lengths = 0;
     std::uint32_t wrong_mantissas = 0;
     for (const lks::Batch& batch : asset.batches) {
@@ -216,6 +216,16 @@ inline double share_in_runs(const lks_asset& asset) {
     std::uint64_t count = 0;
     for (const lks::Run& run : asset.runs) {
         count += run.count;
+    }
+    return 100.0 * static_cast<double>(count) / asset.constraint_count();
+}
+
+// In percent: constraints that kernels of so many lanes take in whole groups, spare lanes included.
+inline double share_in_groups(const lks_asset& asset, std::uint32_t lanes) {
+    std::uint64_t count = 0;
+    for (const lks::Run& run : asset.runs) {
+        const std::uint32_t rest = run.count % lanes;
+        count += run.count - (rest + run.spare >= lanes ? 0 : rest);
     }
     return 100.0 * static_cast<double>(count) / asset.constraint_count();
 }

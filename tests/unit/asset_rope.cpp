@@ -42,7 +42,8 @@ TEST_CASE("a rope of any number of segments has two colours of stretch and two o
         CHECK(lks_asset_triangles(asset, &none, 0) == LKS_OK);
         CHECK(none == 7);
         if (segments >= 50) {
-            CHECK(share_in_runs(*asset) > 95);
+            // The last particles beyond a multiple of four are in no run: three of 51 here at most.
+            CHECK(share_in_runs(*asset) > 93);
         }
     }
 }

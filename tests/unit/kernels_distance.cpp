@@ -1,6 +1,7 @@
 // Every instruction set's distance kernel against plain integers: the same bits for random and extreme edges.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -55,13 +56,14 @@ struct Batch {
 
     explicit Batch(test::Random& random) {
         for (std::uint32_t length = 1; length <= 40; ++length) {
-            const auto gap = static_cast<std::uint32_t>(random.bits() % 5);
+            const auto gap = static_cast<std::uint32_t>(random.below(16));
+            const std::uint32_t spare = std::min(gap, (widest_group - length % widest_group) % widest_group);
             const auto first = static_cast<std::uint32_t>(constraints.size());
-            runs.push_back({first, length, particles, particles + length + gap});
+            runs.push_back({first, length, particles, particles + length + gap, spare});
             for (std::uint32_t i = 0; i < length; ++i) {
                 constraints.push_back({particles + i, particles + length + gap + i});
             }
-            particles += 2 * length + gap;
+            particles += 2 * (length + gap);
         }
         first_single = static_cast<std::uint32_t>(constraints.size());
         std::vector<std::uint32_t> order;
@@ -111,6 +113,7 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
     for (std::size_t i = 0; i < problem.positions.size(); ++i) {
         problem.positions[i] = signed_below(random, 61);
     }
+    const std::size_t padded = count + widest_group - 1;
     for (std::size_t i = 0; i < count; ++i) {
         problem.rests.push_back(static_cast<std::uint32_t>(0x80000000u | random.bits() >> 33) >>
                                 (random.bits() % 4 == 0 ? random.bits() % 4 : 0));
@@ -147,6 +150,10 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
             }
         }
     }
+    // Kernels read on, and must not mind what they find.
+    problem.rests.resize(padded, UINT32_MAX);
+    problem.shares_a.resize(padded, unit_one - 1);
+    problem.shares_b.resize(padded, unit_one - 1);
     return problem;
 }
 
@@ -162,6 +169,8 @@ Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Pro
         ++task.runs;
         --task.run_count;
     }
+    task.particle_count = n;
+    task.whole_batch = range.first == 0 && range.last == batch.constraints.size();
     task.first_single = batch.first_single;
     task.constraints = batch.constraints.data();
     task.rest_mantissas = problem.rests.data();

@@ -74,7 +74,7 @@ struct lks_asset {
 
     lks::Array<lks::Constraint> constraints;
     lks::Array<std::int64_t> rest_lengths;    // by constraint, Coordinate format
-    lks::Array<std::uint32_t> rest_mantissas; // by constraint, see Batch::rest_exponent
+    lks::Array<std::uint32_t> rest_mantissas; // by constraint, see Batch::rest_exponent; padded
     lks::Array<lks::Batch> batches;
     lks::Array<lks::Run> runs;
     // Constraints of particle p: incident_constraints[incident_offsets[p] .. incident_offsets[p + 1]).

@@ -1,5 +1,7 @@
 #include "asset/build.h"
 
+#include "asset/spare_particles.h"
+
 #include <algorithm>
 
 namespace lks {
@@ -78,7 +80,7 @@ bool add_batch(const Build& build, std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t i = first; i < end;) {
         const std::uint32_t length = run_length(build.drafts, i, end);
         if (length >= minimum_run_length) {
-            const Run run{asset.constraint_count(), length, build.drafts[i].a, build.drafts[i].b};
+            const Run run{asset.constraint_count(), length, build.drafts[i].a, build.drafts[i].b, 0};
             if (!asset.runs.push(run) || !add_constraints(build, i, length)) {
                 return false;
             }
@@ -147,7 +149,7 @@ void choose_formats(lks_asset& asset, Batch& batch) {
 lks_result measure(const Build& build) {
     lks_asset& asset = build.asset;
     if (!asset.rest_lengths.resize(asset.constraints.size()) ||
-        !asset.rest_mantissas.resize(asset.constraints.size())) {
+        !asset.rest_mantissas.resize(asset.constraints.size() + widest_group - 1)) {
         return build.fail_out_of_memory();
     }
     for (std::uint32_t i = 0; i < asset.constraint_count(); ++i) {
@@ -225,7 +227,7 @@ lks_result assemble(Build& build) {
     if (const lks_result result = measure(build); result != LKS_OK) {
         return result;
     }
-    if (!list_incidences(build.asset)) {
+    if (!find_spare_particles(build.asset) || !list_incidences(build.asset)) {
         return build.fail_out_of_memory();
     }
     build.asset.fingerprint = compute_fingerprint(build.asset);

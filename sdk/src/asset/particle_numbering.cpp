@@ -94,11 +94,23 @@ bool number_rows(Build& build, std::uint32_t columns, std::uint32_t rows) {
     if (!build.order.reserve(std::size_t{columns} * rows)) {
         return false;
     }
-    for (std::uint32_t row = 0; row < rows; ++row) {
-        for (std::uint32_t residue = 0; residue < 4; ++residue) {
-            for (std::uint32_t column = residue; column < columns; column += 4) {
+    // Every fourth row, and in it every fourth of the columns [first, last).
+    const auto number_block = [&](std::uint32_t first_row, std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t row = first_row; row < rows; row += 4) {
+            for (std::uint32_t column = first; column < last; column += 4) {
                 build.order.push_reserved(row * columns + column);
             }
+        }
+    };
+    const std::uint32_t even_columns = columns / 4 * 4;
+    for (std::uint32_t column = 0; column < 4 && column < even_columns; ++column) {
+        for (std::uint32_t row = 0; row < 4; ++row) {
+            number_block(row, column, even_columns);
+        }
+    }
+    for (std::uint32_t column = even_columns; column < columns; ++column) {
+        for (std::uint32_t row = 0; row < 4; ++row) {
+            number_block(row, column, column + 1);
         }
     }
     return true;

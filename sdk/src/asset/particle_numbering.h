@@ -5,9 +5,10 @@
 
 namespace lks {
 
-// Within each row of `columns` vertices: columns 0, 4, 8 …, then 1, 5, 9 …, 2, 6 …, 3, 7 …. Neighbours along
-// the row, diagonal neighbours and next-but-one neighbours of a colour are then runs of a quarter row, and
-// those across rows of a whole one. A rope is one row.
+// In blocks of every fourth column and every fourth row, the rows of a block one after the other. Neighbours
+// of one colour (along rows, along columns, diagonal, next but one) are then runs as long as the block, or as
+// one of its rows less the last, whose place nobody needs. Columns beyond a multiple of four come last, so
+// that all rows of blocks have one length. A rope is one row.
 [[nodiscard]] bool number_rows(Build& build, std::uint32_t columns, std::uint32_t rows);
 
 // For meshes, whose first drafts [0, end) are the stretch edges: the first ends of colour 0's edges in

@@ -49,6 +49,25 @@ struct RunAccess {
     }
 };
 
+// The end of a run: loads as a whole group does, and stores its own lanes only.
+template <typename L>
+struct TailAccess : RunAccess<L> {
+    std::uint32_t count;
+
+    LKS_FORCE_INLINE void store(std::int64_t* x, const Group<L>& at_a, const Group<L>& at_b) const {
+        constexpr std::uint32_t lanes = 2 * L::half;
+        std::int64_t values[2 * lanes];
+        L::store(values, at_a.a);
+        L::store(values + L::half, at_a.b);
+        L::store(values + lanes, at_b.a);
+        L::store(values + lanes + L::half, at_b.b);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            x[this->a + i] = values[i];
+            x[this->b + i] = values[lanes + i];
+        }
+    }
+};
+
 // Constraints from anywhere in the batch. Lanes from `count` on repeat the first one and are not stored.
 template <typename L>
 struct ScatteredAccess {
@@ -160,6 +179,10 @@ private:
     R after_;
 };
 
+// Loaded from widest_group − count on: all bits in the first `count` lanes, and none in the others.
+constexpr std::int64_t first_lanes[2 * widest_group] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                                        -1, -1, -1, -1, -1, -1, -1, -1};
+
 // What f needs of an edge beside its stretch: its groups' lengths and directions.
 template <typename L>
 struct EdgeLanes {
@@ -194,9 +217,9 @@ public:
           damping_share_(L::set(task.parameters.damping_share)),
           length_shift_(L::set(30 - task.parameters.difference_shift)) {}
 
-    // False, and nothing is changed: a lane needs the plain way.
-    template <typename Access>
-    LKS_FORCE_INLINE bool project(const Access& at) const {
+    // False, and nothing is changed: a lane needs the plain way. Lanes from `count` on are left as they are.
+    template <bool whole = true, typename Access>
+    LKS_FORCE_INLINE bool project(const Access& at, std::uint32_t count = 2 * L::half) const {
         std::int64_t* const axes[3] = {task_.arrays.x, task_.arrays.y, task_.arrays.z};
         Edge edge;
         R beyond = L::set(0);
@@ -204,11 +227,19 @@ public:
             const G a = at.load_a(axes[axis]);
             const G b = at.load_b(axes[axis]);
             edge.wide[axis] = {L::subtract(a.a, b.a), L::subtract(a.b, b.b)};
+            if constexpr (!whole) {
+                edge.wide[axis] = masked(edge.wide[axis], count);
+            }
             edge.d[axis] = narrow(edge.wide[axis], bias_, direction_one, beyond);
         }
         edge.u = dot_product(edge.d, edge.d);
         const R high_u = L::high_halves(edge.u.a, edge.u.b);
-        const R too_short = L::equal_32(high_u, L::set_32(0));
+        R too_short = L::equal_32(high_u, L::set_32(0));
+        if constexpr (!whole) {
+            const G all_bits{L::set(-1), L::set(-1)};
+            const G mask = masked(all_bits, count);
+            too_short = L::bit_and(too_short, L::high_halves(mask.a, mask.b));
+        }
         if (L::any(L::bit_or(too_short, L::bit_and(beyond, L::set(~std::int64_t{INT32_MAX}))))) {
             return false;
         }
@@ -222,7 +253,7 @@ public:
         if constexpr (multiplier) {
             add_to_multipliers(at, edge, f);
         }
-        move(at, axes, edge.d, f);
+        move<whole>(at, axes, edge.d, f, count);
         return true;
     }
 
@@ -361,13 +392,25 @@ private:
                            L::shift_right_each(lift, right));
     }
 
-    template <typename Access>
-    LKS_FORCE_INLINE void move(const Access& at, std::int64_t* const* axes, const G* d, const G& f) const {
-        const G share_a = at.load(task_.shares_a);
+    // Nothing in lanes from `count` on.
+    static LKS_FORCE_INLINE G masked(const G& values, std::uint32_t count) {
+        const std::int64_t* mask = first_lanes + widest_group - count;
+        return {L::bit_and(values.a, L::load(mask)), L::bit_and(values.b, L::load(mask + L::half))};
+    }
+
+    template <bool whole, typename Access>
+    LKS_FORCE_INLINE G load_shares(const Access& at, const std::uint32_t* shares, std::uint32_t count) const {
+        return whole ? at.load(shares) : masked(at.load(shares), count);
+    }
+
+    template <bool whole, typename Access>
+    LKS_FORCE_INLINE void move(const Access& at, std::int64_t* const* axes, const G* d, const G& f,
+                               std::uint32_t count) const {
+        const G share_a = load_shares<whole>(at, task_.shares_a, count);
         if constexpr (equal_shares) {
             move_alike(at, axes, d, f, share_a);
         } else {
-            const G share_b = at.load(task_.shares_b);
+            const G share_b = load_shares<whole>(at, task_.shares_b, count);
             const G alike{L::equal(share_a.a, share_b.a), L::equal(share_a.b, share_b.b)};
             if (L::all(L::bit_and(alike.a, alike.b))) {
                 move_alike(at, axes, d, f, share_a);
@@ -472,13 +515,27 @@ inline void project_in_groups(const DistanceTask& task) {
             project_scattered();
         }
     };
-    visit_runs(task, [&](std::uint32_t constraint, std::uint32_t a, std::uint32_t b, std::uint32_t count) {
+    visit_runs(task, [&](std::uint32_t constraint, std::uint32_t a, std::uint32_t b, std::uint32_t count,
+                         std::uint32_t spare) {
         std::uint32_t i = 0;
         for (; i + lanes <= count; i += lanes) {
             if (!groups.project(RunAccess<L>{constraint + i, a + i, b + i})) {
                 for (std::uint32_t lane = i; lane < i + lanes; ++lane) {
                     project_one(constraint + lane, a + lane, b + lane);
                 }
+            }
+        }
+        const RunAccess<L> rest{constraint + i, a + i, b + i};
+        const std::uint32_t left = count - i;
+        // Multipliers have nobody's lanes between them.
+        if (!multiplier && left != 0) {
+            if (left + spare >= lanes && groups.template project<false>(rest, left)) {
+                return;
+            }
+            // b is the upper end. Other lanes are read, so nobody else may write them.
+            if (task.whole_batch && left >= L::half && b + i + lanes <= task.particle_count &&
+                groups.template project<false>(TailAccess<L>{rest, left}, left)) {
+                return;
             }
         }
         for (; i < count; ++i) {

@@ -6,8 +6,8 @@
 namespace lks {
 namespace {
 
-// Calls use(constraint, particle a, particle b, count) for the stretches of the range in which both ends
-// advance by one.
+// Calls use(constraint, particle a, particle b, count, spare) for the stretches of the range in which both
+// ends advance by one.
 template <typename Use>
 inline void visit_runs(const DistanceTask& task, const Use& use) {
     for (std::uint32_t r = 0; r < task.run_count; ++r) {
@@ -18,7 +18,9 @@ inline void visit_runs(const DistanceTask& task, const Use& use) {
         const std::uint32_t first = run.first < task.range.first ? task.range.first : run.first;
         const std::uint32_t end = run.first + run.count;
         const std::uint32_t last = end < task.range.last ? end : task.range.last;
-        use(first, run.a + (first - run.first), run.b + (first - run.first), last - first);
+        // What follows a run that the range cuts is another one's to touch.
+        const std::uint32_t spare = last == end ? run.spare : 0;
+        use(first, run.a + (first - run.first), run.b + (first - run.first), last - first, spare);
     }
 }
 
@@ -34,7 +36,8 @@ inline void visit_singles(const DistanceTask& task, const Use& use) {
 template <bool equal_shares, bool soft, bool damped, bool multiplier>
 inline void project_in_turn(const DistanceTask& task) {
     const Projection<equal_shares, soft, damped, multiplier> project(task);
-    visit_runs(task, [&](std::uint32_t constraint, std::uint32_t a, std::uint32_t b, std::uint32_t count) {
+    visit_runs(task, [&](std::uint32_t constraint, std::uint32_t a, std::uint32_t b, std::uint32_t count,
+                         std::uint32_t) {
         for (std::uint32_t i = 0; i < count; ++i) {
             project(constraint + i, a + i, b + i);
         }

@@ -47,7 +47,8 @@ bool PinnedParticles::contains(std::uint32_t particle) const {
 
 bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
     const std::size_t count = asset.constraints.size();
-    if (!shares_a.resize(count) || !shares_b.resize(count) || !batches.resize(asset.batches.size())) {
+    const std::size_t padded = count + widest_group - 1;
+    if (!shares_a.resize(padded) || !shares_b.resize(padded) || !batches.resize(asset.batches.size())) {
         return false;
     }
     bool any_soft = false;
