@@ -195,7 +195,7 @@ struct Particle {
     }
     void resolve(const lks::ContactFrame& frame) {
         lks::resolve_contacts(frame, {&position.x, &position.y, &position.z, &start.x, &start.y, &start.z}, 0,
-                              1);
+                              1, *lks::find_kernels(LKS_SIMD_SCALAR));
     }
 };
 

@@ -1,6 +1,7 @@
 #include "collide/contact.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "collide/saturation.h"
 
@@ -181,74 +182,94 @@ void apply(const ContactFrame& frame, const Way& way, const Contact& contact, co
     }
 }
 
-// Most particles leave here: the bounding box of the way against the box of the frame, in object space.
-template <bool rotating>
+// A particle's way grows by half of itself where the collider rotates: its bounding box against the box of
+// the frame, in object space.
 bool misses_box(const ContactFrame& frame, const fixed::Vec3& position, const fixed::Vec3& start) {
     fixed::Vec3 low = {std::min(position.x, start.x), std::min(position.y, start.y),
                        std::min(position.z, start.z)};
     fixed::Vec3 high = {std::max(position.x, start.x), std::max(position.y, start.y),
                         std::max(position.z, start.z)};
-    if constexpr (rotating) {
-        const std::int64_t own = sum_of_magnitudes(saturating_subtract(high, low)) / 2 + 1;
-        low = saturating_subtract(low, {own, own, own});
-        high = saturating_add(high, {own, own, own});
-    }
+    const std::int64_t own = sum_of_magnitudes(saturating_subtract(high, low)) / 2 + 1;
+    low = saturating_subtract(low, {own, own, own});
+    high = saturating_add(high, {own, own, own});
     return (low.x > frame.box_high.x) | (low.y > frame.box_high.y) | (low.z > frame.box_high.z) |
            (high.x < frame.box_low.x) | (high.y < frame.box_low.y) | (high.z < frame.box_low.z);
 }
 
-template <lks_shape_kind kind, bool rotating>
-void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                   std::uint32_t count) {
+constexpr std::uint32_t particles_at_once = 64;
+
+// Calls resolve(i) for those of the particles whose bit near(first, count) sets.
+template <typename Near, typename Resolve>
+void visit_near(std::uint32_t first, std::uint32_t count, const Near& near, const Resolve& resolve) {
     const std::uint32_t last = first + count;
-    for (std::uint32_t i = first; i < last; ++i) {
-        const fixed::Vec3 position = {particles.x[i], particles.y[i], particles.z[i]};
-        const fixed::Vec3 start = {particles.start_x[i], particles.start_y[i], particles.start_z[i]};
-        if ((!rotating || frame.has_box) && misses_box<rotating>(frame, position, start)) {
-            continue;
-        }
-        Way way{};
-        if (!find_way(frame, position, start, way)) {
-            continue;
-        }
-        // The distance changes by no more than the way is long.
-        const std::int64_t length_bound = sum_of_magnitudes(way.end - way.start);
-        if (is_beyond<kind>(frame.shape, way.end, frame.margin, length_bound)) {
-            continue;
-        }
-        Contact contact{};
-        if (find_contact<kind>(frame, way, contact)) {
-            apply(frame, way, contact, particles, i);
+    for (std::uint32_t i = first; i < last; i += particles_at_once) {
+        std::uint64_t left = near(i, std::min(last - i, particles_at_once));
+        for (; left != 0; left &= left - 1) {
+            resolve(i + static_cast<std::uint32_t>(std::countr_zero(left)));
         }
     }
 }
 
 template <lks_shape_kind kind>
-void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                   std::uint32_t count) {
-    if (frame.rotating) {
-        resolve_solid<kind, true>(frame, particles, first, count);
-    } else {
-        resolve_solid<kind, false>(frame, particles, first, count);
+void resolve_solid_contact(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t i) {
+    const fixed::Vec3 position = {particles.x[i], particles.y[i], particles.z[i]};
+    const fixed::Vec3 start = {particles.start_x[i], particles.start_y[i], particles.start_z[i]};
+    if (frame.rotating && frame.has_box && misses_box(frame, position, start)) {
+        return;
     }
+    Way way{};
+    if (!find_way(frame, position, start, way)) {
+        return;
+    }
+    // The distance changes by no more than the way is long.
+    const std::int64_t length_bound = sum_of_magnitudes(way.end - way.start);
+    if (is_beyond<kind>(frame.shape, way.end, frame.margin, length_bound)) {
+        return;
+    }
+    Contact contact{};
+    if (find_contact<kind>(frame, way, contact)) {
+        apply(frame, way, contact, particles, i);
+    }
+}
+
+std::int32_t upper_half(std::int64_t coordinate) {
+    return static_cast<std::int32_t>(coordinate >> 32);
+}
+
+// Most particles leave with the kernel's question.
+template <lks_shape_kind kind>
+void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
+                   std::uint32_t count, const Kernels& kernels) {
+    const auto resolve = [&](std::uint32_t i) { resolve_solid_contact<kind>(frame, particles, i); };
+    if (frame.rotating) {
+        for (std::uint32_t i = first; i < first + count; ++i) {
+            resolve(i);
+        }
+        return;
+    }
+    const fixed::Vec3& low = frame.box_low;
+    const fixed::Vec3& high = frame.box_high;
+    const BoxTask task{{particles.x, particles.y, particles.z},
+                       {particles.start_x, particles.start_y, particles.start_z},
+                       {upper_half(low.x), upper_half(low.y), upper_half(low.z)},
+                       {upper_half(high.x), upper_half(high.y), upper_half(high.z)}};
+    const auto near = [&](std::uint32_t i, std::uint32_t n) { return kernels.near_box(task, i, n); };
+    visit_near(first, count, near, resolve);
 }
 
 // A plane is met only by what is below it in the end. Heights on 24 fraction bits decide for most.
 void resolve_plane(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                   std::uint32_t count) {
+                   std::uint32_t count, const Kernels& kernels) {
     const fixed::Matrix3& r = frame.end_rotation;
     const fixed::Vec3& c = frame.end_centre;
-    const std::int64_t a = r.m[0][1], b = r.m[1][1], d = r.m[2][1];
+    const std::int32_t a = r.m[0][1], b = r.m[1][1], d = r.m[2][1];
     // Q54: each difference is right to one unit of 2^-24, times components that sum to less than 2.
     const std::int64_t certainly_above = (frame.margin >> 2) + (std::int64_t{2} << direction_fraction_bits);
-    const std::uint32_t last = first + count;
-    for (std::uint32_t i = first; i < last; ++i) {
-        const std::int64_t height = a * ((particles.x[i] >> 32) - (c.x >> 32)) +
-                                    b * ((particles.y[i] >> 32) - (c.y >> 32)) +
-                                    d * ((particles.z[i] >> 32) - (c.z >> 32));
-        if (height >= certainly_above) {
-            continue;
-        }
+    const PlaneTask task{{particles.x, particles.y, particles.z},
+                         {a, b, d},
+                         certainly_above + a * (c.x >> 32) + b * (c.y >> 32) + d * (c.z >> 32)};
+    const auto near = [&](std::uint32_t i, std::uint32_t n) { return kernels.near_plane(task, i, n); };
+    visit_near(first, count, near, [&](std::uint32_t i) {
         const fixed::Vec3 start = {particles.start_x[i], particles.start_y[i], particles.start_z[i]};
         Way way{};
         way.end = plane_local(r, {particles.x[i], particles.y[i], particles.z[i]}, c);
@@ -257,25 +278,25 @@ void resolve_plane(const ContactFrame& frame, const ParticleArrays& particles, s
         if (find_plane_contact(frame, way, contact)) {
             apply(frame, way, contact, particles, i);
         }
-    }
+    });
 }
 
 } // namespace
 
 void resolve_contacts(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                      std::uint32_t count) {
+                      std::uint32_t count, const Kernels& kernels) {
     if (!frame.reachable) {
         return;
     }
     switch (frame.shape.kind) {
     case LKS_SHAPE_PLANE:
-        return resolve_plane(frame, particles, first, count);
+        return resolve_plane(frame, particles, first, count, kernels);
     case LKS_SHAPE_SPHERE:
-        return resolve_solid<LKS_SHAPE_SPHERE>(frame, particles, first, count);
+        return resolve_solid<LKS_SHAPE_SPHERE>(frame, particles, first, count, kernels);
     case LKS_SHAPE_CAPSULE:
-        return resolve_solid<LKS_SHAPE_CAPSULE>(frame, particles, first, count);
+        return resolve_solid<LKS_SHAPE_CAPSULE>(frame, particles, first, count, kernels);
     default:
-        return resolve_solid<LKS_SHAPE_BOX>(frame, particles, first, count);
+        return resolve_solid<LKS_SHAPE_BOX>(frame, particles, first, count, kernels);
     }
 }
 

@@ -18,6 +18,7 @@
 #include <cstdint>
 
 #include "collide/collider_motion.h"
+#include "kernels/kernels.h"
 
 namespace lks {
 
@@ -37,6 +38,6 @@ inline constexpr std::int64_t contact_tolerance = coordinate_one >> 20;
 // Particles first .. first + count - 1. Each result depends on that particle and the frame only. Positions
 // that are pushed beyond ±coordinate_limit stop there. No undefined behaviour for any positions.
 void resolve_contacts(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                      std::uint32_t count);
+                      std::uint32_t count, const Kernels& kernels);
 
 } // namespace lks

@@ -4,6 +4,7 @@
 
 #include <lockstitch/simd.h>
 
+#include "kernels/contact_task.h"
 #include "kernels/distance_task.h"
 #include "kernels/prediction_task.h"
 
@@ -13,6 +14,9 @@ struct Kernels {
     lks_simd level;
     void (*project_distances)(const DistanceTask& task);
     PredictionClamps (*predict)(const PredictionTask& task);
+    // Bit i: particle first + i may be touched; count ≤ 64.
+    std::uint64_t (*near_box)(const BoxTask& task, std::uint32_t first, std::uint32_t count);
+    std::uint64_t (*near_plane)(const PlaneTask& task, std::uint32_t first, std::uint32_t count);
     // XXH3_64bits_update.
     void (*hash_update)(void* state, const void* bytes, std::size_t size);
 };

@@ -2,6 +2,7 @@
 
 #if defined(LKS_HAS_AVX2)
 
+#include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
 #include "kernels/lanes_avx2.h"
@@ -9,7 +10,12 @@
 
 namespace lks {
 
-const Kernels kernels_avx2{LKS_SIMD_AVX2, project_lanes<LanesAvx2>, predict_lanes<LanesAvx2>, hash_update};
+const Kernels kernels_avx2{LKS_SIMD_AVX2,
+                           project_lanes<LanesAvx2>,
+                           predict_lanes<LanesAvx2>,
+                           near_box_lanes<LanesAvx2>,
+                           near_plane_lanes<LanesAvx2>,
+                           hash_update};
 
 } // namespace lks
 

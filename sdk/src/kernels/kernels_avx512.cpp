@@ -7,6 +7,7 @@
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
+#include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
 #include "kernels/lanes_avx512.h"
@@ -14,7 +15,11 @@
 
 namespace lks {
 
-const Kernels kernels_avx512{LKS_SIMD_AVX512, project_lanes<LanesAvx512>, predict_lanes<LanesAvx512>,
+const Kernels kernels_avx512{LKS_SIMD_AVX512,
+                             project_lanes<LanesAvx512>,
+                             predict_lanes<LanesAvx512>,
+                             near_box_lanes<LanesAvx512>,
+                             near_plane_lanes<LanesAvx512>,
                              hash_update};
 
 } // namespace lks

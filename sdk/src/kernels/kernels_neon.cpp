@@ -2,6 +2,7 @@
 
 #if defined(LKS_HAS_NEON)
 
+#include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
 #include "kernels/lanes_neon.h"
@@ -9,7 +10,12 @@
 
 namespace lks {
 
-const Kernels kernels_neon{LKS_SIMD_NEON, project_lanes<LanesNeon>, predict_lanes<LanesNeon>, hash_update};
+const Kernels kernels_neon{LKS_SIMD_NEON,
+                           project_lanes<LanesNeon>,
+                           predict_lanes<LanesNeon>,
+                           near_box_lanes<LanesNeon>,
+                           near_plane_lanes<LanesNeon>,
+                           hash_update};
 
 } // namespace lks
 

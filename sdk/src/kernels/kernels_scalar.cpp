@@ -1,10 +1,12 @@
 #include "kernels/compiled_kernels.h"
+#include "kernels/contact_scalar.h"
 #include "kernels/distance_scalar_loop.h"
 #include "kernels/hash_update.h"
 #include "kernels/prediction_scalar.h"
 
 namespace lks {
 
-const Kernels kernels_scalar{LKS_SIMD_SCALAR, project_scalar, predict_scalar, hash_update};
+const Kernels kernels_scalar{LKS_SIMD_SCALAR, project_scalar,    predict_scalar,
+                             near_box_scalar, near_plane_scalar, hash_update};
 
 } // namespace lks

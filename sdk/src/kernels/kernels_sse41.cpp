@@ -2,6 +2,7 @@
 
 #if defined(LKS_HAS_SSE41)
 
+#include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
 #include "kernels/lanes_sse41.h"
@@ -9,7 +10,11 @@
 
 namespace lks {
 
-const Kernels kernels_sse41{LKS_SIMD_SSE41, project_lanes<LanesSse41>, predict_lanes<LanesSse41>,
+const Kernels kernels_sse41{LKS_SIMD_SSE41,
+                            project_lanes<LanesSse41>,
+                            predict_lanes<LanesSse41>,
+                            near_box_lanes<LanesSse41>,
+                            near_plane_lanes<LanesSse41>,
                             hash_update};
 
 } // namespace lks

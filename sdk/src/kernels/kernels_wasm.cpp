@@ -2,6 +2,7 @@
 
 #if defined(LKS_HAS_WASM)
 
+#include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
 #include "kernels/lanes_wasm.h"
@@ -9,7 +10,12 @@
 
 namespace lks {
 
-const Kernels kernels_wasm{LKS_SIMD_WASM, project_lanes<LanesWasm>, predict_lanes<LanesWasm>, hash_update};
+const Kernels kernels_wasm{LKS_SIMD_WASM,
+                           project_lanes<LanesWasm>,
+                           predict_lanes<LanesWasm>,
+                           near_box_lanes<LanesWasm>,
+                           near_plane_lanes<LanesWasm>,
+                           hash_update};
 
 } // namespace lks
 

@@ -38,6 +38,10 @@ struct LanesAvx2 {
     static Register shift_right(Register v) {
         return _mm256_srli_epi64(v, count);
     }
+    template <int count>
+    static Register shift_left(Register v) {
+        return _mm256_slli_epi64(v, count);
+    }
     static Register shift_right_each(Register v, Register counts) { return _mm256_srlv_epi64(v, counts); }
     static Register shift_left_each(Register v, Register counts) { return _mm256_sllv_epi64(v, counts); }
     static Register equal(Register a, Register b) { return _mm256_cmpeq_epi64(a, b); }
@@ -58,6 +62,7 @@ struct LanesAvx2 {
     static Register add_32(Register a, Register b) { return _mm256_add_epi32(a, b); }
     static Register subtract_32(Register a, Register b) { return _mm256_sub_epi32(a, b); }
     static Register equal_32(Register a, Register b) { return _mm256_cmpeq_epi32(a, b); }
+    static Register greater_32(Register a, Register b) { return _mm256_cmpgt_epi32(a, b); }
     static Register multiply_low_32(Register a, Register b) { return _mm256_mullo_epi32(a, b); }
     template <int count>
     static Register shift_left_32(Register v) {
@@ -98,7 +103,10 @@ struct LanesAvx2 {
     static Register bit_or(Register a, Register b) { return _mm256_or_si256(a, b); }
     static Register exclusive_or(Register a, Register b) { return _mm256_xor_si256(a, b); }
     static Register and_not(Register mask, Register v) { return _mm256_andnot_si256(mask, v); }
-    static bool any_negative(Register v) { return _mm256_movemask_pd(_mm256_castsi256_pd(v)) != 0; }
+    // Bit i: lane i is negative.
+    static std::uint32_t sign_bits(Register v) {
+        return static_cast<std::uint32_t>(_mm256_movemask_pd(_mm256_castsi256_pd(v)));
+    }
     static bool any(Register v) { return _mm256_testz_si256(v, v) == 0; }
     // Every bit is set.
     static bool all(Register v) { return _mm256_testc_si256(v, _mm256_set1_epi32(-1)) != 0; }

@@ -39,6 +39,10 @@ struct LanesAvx512 {
     static Register shift_right(Register v) {
         return _mm512_srli_epi64(v, count);
     }
+    template <int count>
+    static Register shift_left(Register v) {
+        return _mm512_slli_epi64(v, count);
+    }
     static Register shift_right_each(Register v, Register counts) { return _mm512_srlv_epi64(v, counts); }
     static Register shift_left_each(Register v, Register counts) { return _mm512_sllv_epi64(v, counts); }
     static Register equal(Register a, Register b) { return _mm512_movm_epi64(_mm512_cmpeq_epi64_mask(a, b)); }
@@ -59,6 +63,9 @@ struct LanesAvx512 {
     static Register subtract_32(Register a, Register b) { return _mm512_sub_epi32(a, b); }
     static Register equal_32(Register a, Register b) {
         return _mm512_movm_epi32(_mm512_cmpeq_epi32_mask(a, b));
+    }
+    static Register greater_32(Register a, Register b) {
+        return _mm512_movm_epi32(_mm512_cmpgt_epi32_mask(a, b));
     }
     static Register multiply_low_32(Register a, Register b) { return _mm512_mullo_epi32(a, b); }
     template <int count>
@@ -93,7 +100,8 @@ struct LanesAvx512 {
     static Register bit_or(Register a, Register b) { return _mm512_or_si512(a, b); }
     static Register exclusive_or(Register a, Register b) { return _mm512_xor_si512(a, b); }
     static Register and_not(Register mask, Register v) { return _mm512_andnot_si512(mask, v); }
-    static bool any_negative(Register v) { return _mm512_movepi64_mask(v) != 0; }
+    // Bit i: lane i is negative.
+    static std::uint32_t sign_bits(Register v) { return _mm512_movepi64_mask(v); }
     static bool any(Register v) { return _mm512_test_epi64_mask(v, v) != 0; }
     // Every bit is set.
     static bool all(Register v) { return _mm512_cmpneq_epi64_mask(v, _mm512_set1_epi64(-1)) == 0; }

@@ -38,6 +38,10 @@ struct LanesNeon {
     static Register shift_right(Register v) {
         return vshrq_n_u64(v, count);
     }
+    template <int count>
+    static Register shift_left(Register v) {
+        return vshlq_n_u64(v, count);
+    }
     static Register shift_right_each(Register v, Register counts) {
         return vshlq_u64(v, vnegq_s64(vreinterpretq_s64_u64(counts)));
     }
@@ -67,6 +71,9 @@ struct LanesNeon {
     static Register subtract_32(Register a, Register b) { return from_32(vsubq_s32(to_32(a), to_32(b))); }
     static Register equal_32(Register a, Register b) {
         return vreinterpretq_u64_u32(vceqq_s32(to_32(a), to_32(b)));
+    }
+    static Register greater_32(Register a, Register b) {
+        return vreinterpretq_u64_u32(vcgtq_s32(to_32(a), to_32(b)));
     }
     static Register multiply_low_32(Register a, Register b) { return from_32(vmulq_s32(to_32(a), to_32(b))); }
     template <int count>
@@ -107,8 +114,9 @@ struct LanesNeon {
     static Register bit_or(Register a, Register b) { return vorrq_u64(a, b); }
     static Register exclusive_or(Register a, Register b) { return veorq_u64(a, b); }
     static Register and_not(Register mask, Register v) { return vbicq_u64(v, mask); }
-    static bool any_negative(Register v) {
-        return ((vgetq_lane_u64(v, 0) | vgetq_lane_u64(v, 1)) >> 63) != 0;
+    // Bit i: lane i is negative.
+    static std::uint32_t sign_bits(Register v) {
+        return static_cast<std::uint32_t>(vgetq_lane_u64(v, 0) >> 63 | vgetq_lane_u64(v, 1) >> 63 << 1);
     }
     static bool any(Register v) { return (vgetq_lane_u64(v, 0) | vgetq_lane_u64(v, 1)) != 0; }
     // Every bit is set.

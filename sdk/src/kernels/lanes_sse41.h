@@ -39,6 +39,10 @@ struct LanesSse41 {
         return _mm_srli_epi64(v, count);
     }
     // Both lanes by either count, and from each the lane that it was meant for.
+    template <int count>
+    static Register shift_left(Register v) {
+        return _mm_slli_epi64(v, count);
+    }
     static Register shift_right_each(Register v, Register counts) {
         return _mm_blend_epi16(_mm_srl_epi64(v, counts), _mm_srl_epi64(v, upper(counts)), 0xf0);
     }
@@ -63,6 +67,7 @@ struct LanesSse41 {
     static Register add_32(Register a, Register b) { return _mm_add_epi32(a, b); }
     static Register subtract_32(Register a, Register b) { return _mm_sub_epi32(a, b); }
     static Register equal_32(Register a, Register b) { return _mm_cmpeq_epi32(a, b); }
+    static Register greater_32(Register a, Register b) { return _mm_cmpgt_epi32(a, b); }
     static Register multiply_low_32(Register a, Register b) { return _mm_mullo_epi32(a, b); }
     template <int count>
     static Register shift_left_32(Register v) {
@@ -109,7 +114,10 @@ struct LanesSse41 {
     static Register bit_or(Register a, Register b) { return _mm_or_si128(a, b); }
     static Register exclusive_or(Register a, Register b) { return _mm_xor_si128(a, b); }
     static Register and_not(Register mask, Register v) { return _mm_andnot_si128(mask, v); }
-    static bool any_negative(Register v) { return _mm_movemask_pd(_mm_castsi128_pd(v)) != 0; }
+    // Bit i: lane i is negative.
+    static std::uint32_t sign_bits(Register v) {
+        return static_cast<std::uint32_t>(_mm_movemask_pd(_mm_castsi128_pd(v)));
+    }
     static bool any(Register v) { return _mm_testz_si128(v, v) == 0; }
     // Every bit is set.
     static bool all(Register v) { return _mm_testc_si128(v, _mm_set1_epi32(-1)) != 0; }

@@ -35,6 +35,10 @@ struct LanesWasm {
     static Register shift_right(Register v) {
         return wasm_u64x2_shr(v, count);
     }
+    template <int count>
+    static Register shift_left(Register v) {
+        return wasm_i64x2_shl(v, count);
+    }
     static Register shift_right_each(Register v, Register counts) {
         return wasm_i64x2_shuffle(wasm_u64x2_shr(v, static_cast<Shift>(wasm_i32x4_extract_lane(counts, 0))),
                                   wasm_u64x2_shr(v, static_cast<Shift>(wasm_i32x4_extract_lane(counts, 2))),
@@ -64,6 +68,7 @@ struct LanesWasm {
     static Register add_32(Register a, Register b) { return wasm_i32x4_add(a, b); }
     static Register subtract_32(Register a, Register b) { return wasm_i32x4_sub(a, b); }
     static Register equal_32(Register a, Register b) { return wasm_i32x4_eq(a, b); }
+    static Register greater_32(Register a, Register b) { return wasm_i32x4_gt(a, b); }
     static Register multiply_low_32(Register a, Register b) { return wasm_i32x4_mul(a, b); }
     template <int count>
     static Register shift_left_32(Register v) {
@@ -107,7 +112,8 @@ struct LanesWasm {
     static Register bit_or(Register a, Register b) { return wasm_v128_or(a, b); }
     static Register exclusive_or(Register a, Register b) { return wasm_v128_xor(a, b); }
     static Register and_not(Register mask, Register v) { return wasm_v128_andnot(v, mask); }
-    static bool any_negative(Register v) { return wasm_i64x2_bitmask(v) != 0; }
+    // Bit i: lane i is negative.
+    static std::uint32_t sign_bits(Register v) { return wasm_i64x2_bitmask(v); }
     static bool any(Register v) { return wasm_v128_any_true(v); }
     // Every bit is set.
     static bool all(Register v) { return !wasm_v128_any_true(wasm_v128_not(v)); }

@@ -23,7 +23,7 @@ public:
         for (; i + lanes <= task_.count; i += lanes) {
             const Prediction first = predict(i);
             const Prediction second = predict(i + L::half);
-            if (L::any_negative(L::bit_or(first.outside, second.outside))) {
+            if (L::sign_bits(L::bit_or(first.outside, second.outside)) != 0) {
                 predict_in_turn<damped>(task_, i, i + lanes, clamps);
                 continue;
             }

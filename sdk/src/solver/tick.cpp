@@ -106,7 +106,7 @@ private:
             const ContactFrame frame =
                 make_contact_frame(collider, substep, world_.rate.substeps, object_.origin, swept,
                                    asset_.particle_radius, asset_.friction);
-            resolve_contacts(frame, particle_arrays(), 0, object_.count());
+            resolve_contacts(frame, particle_arrays(), 0, object_.count(), *world_.kernels);
             touched = true;
         }
         if (touched) {
