@@ -11,7 +11,8 @@ Installs what is missing, builds into build/ and runs all tests: the SDK's own, 
 g++ and clang at -O0 and -O3, address, undefined-behaviour and thread sanitizers, programs outside the tree
 that link the installed library, and the checks of the sources.
 
-  --portability  also the golden states on aarch64, 32-bit arm, s390x and Windows, under qemu-user and wine
+  --portability  also the golden states on aarch64, 32-bit arm, s390x, Windows and WebAssembly, under
+                 qemu-user, wine and node
   --long         also the exhaustive sweeps
   --help         this text
 

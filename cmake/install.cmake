@@ -3,7 +3,11 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS lockstitch lockstitch_shared EXPORT lockstitch-targets
+set(installed lockstitch)
+if(TARGET lockstitch_shared)
+    list(APPEND installed lockstitch_shared)
+endif()
+install(TARGETS ${installed} EXPORT lockstitch-targets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

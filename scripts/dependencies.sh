@@ -16,7 +16,7 @@ packages_of() {
         # mingw's -posix compiler: the other one has no std::thread.
         portability)
             echo g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-s390x-linux-gnu g++-mingw-w64-x86-64-posix
-            echo qemu-user-static wine wine64
+            echo qemu-user-static wine wine64 emscripten
             ;;
         *)
             echo "The package set '$1' does not exist; there are build, render, test and portability." >&2

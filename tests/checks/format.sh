@@ -4,7 +4,7 @@
 # usage: format.sh SOURCE-FOLDER [--fix]
 set -euo pipefail
 cd "$1"
-folders=(sdk render demos tests)
+folders=(sdk render demos tests bench)
 
 mapfile -t sources < <(find "${folders[@]}" -type f \( -name '*.h' -o -name '*.c' -o -name '*.cpp' \) | sort)
 [ ${#sources[@]} -gt 0 ]
@@ -15,7 +15,8 @@ status=0
 clang-format --dry-run -Werror "${sources[@]}" || status=1
 
 mapfile -t others < <(find . -path './build*' -prune -o -path ./out -prune -o -path ./.git -prune -o -type f \
-    \( -name CMakeLists.txt -o -name '*.cmake' -o -name '*.sh' -o -name '*.py' \) -print | sort)
+    \( -name CMakeLists.txt -o -name '*.cmake' -o -name '*.sh' -o -name '*.py' -o -name '*.mjs' \) -print |
+    sort)
 # Columns, not bytes: grep counts characters where the locale is UTF-8.
 if LC_ALL=C.UTF-8 grep -nE '^.{111,}' "${sources[@]}" "${others[@]}"; then
     echo "These lines are wider than 110 columns." >&2

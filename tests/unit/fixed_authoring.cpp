@@ -2,9 +2,9 @@
 // mode.
 #include <doctest/doctest.h>
 
-#include <bit>
 #include <cfenv>
 #include <cmath>
+#include <cstring>
 #include <initializer_list>
 #include <limits>
 
@@ -22,9 +22,15 @@ namespace {
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+double double_of(std::uint64_t bits) {
+    double value;
+    std::memcpy(&value, &bits, sizeof(value));
+    return value;
+}
+
 // The nearest integer to |value| * 2^fraction_bits, halves up, from the bits of the double by shifts alone.
 Big<40> nearest(double value, int fraction_bits) {
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(value);
+    const std::uint64_t bits = lks::bits_of(value);
     const std::uint64_t fraction = bits & 0xfffffffffffffu;
     const int biased = static_cast<int>((bits >> 52) & 0x7ff);
     const std::uint64_t whole = biased == 0 ? fraction : fraction | 0x10000000000000u;
@@ -41,7 +47,7 @@ double any_double(Random& random) {
     std::uint64_t fraction = bits & 0xfffffffffffffu;
     if (random.below(4) == 0)
         fraction &= ~std::uint64_t{0} << random.below(52); // ties
-    return std::bit_cast<double>((bits & (std::uint64_t{1} << 63)) | (exponent << 52) | fraction);
+    return double_of((bits & (std::uint64_t{1} << 63)) | (exponent << 52) | fraction);
 }
 
 bool same(lks_rotation a, lks_rotation b) {
@@ -56,7 +62,7 @@ TEST_CASE("authoring: doubles are rounded to the nearest unit, ties away from ze
     const auto check = [&tally](double value, int fraction_bits) {
         std::int64_t raw = 77;
         const bool done = lks::to_coordinate(value, fraction_bits, raw);
-        const std::uint64_t where = std::bit_cast<std::uint64_t>(value);
+        const std::uint64_t where = lks::bits_of(value);
         if (!std::isfinite(value)) {
             tally.expect(!done && raw == 77, where);
             return;
@@ -122,8 +128,7 @@ TEST_CASE("authoring: classes of doubles") {
     CHECK(lks::classify_double(1.7976931348623157e308) == NumberClass::finite);
     CHECK(lks::classify_double(-infinity) == NumberClass::infinite);
     CHECK(lks::classify_double(-quiet_nan) == NumberClass::not_a_number);
-    CHECK(lks::classify_double(std::bit_cast<double>(std::uint64_t{0x7ff0000000000001})) ==
-          NumberClass::not_a_number);
+    CHECK(lks::classify_double(double_of(std::uint64_t{0x7ff0000000000001})) == NumberClass::not_a_number);
     lks::SignedScaled number;
     CHECK(lks::decode_double(-0.0, number));
     CHECK_FALSE(number.negative);
@@ -208,9 +213,9 @@ TEST_CASE("authoring: the rounding mode has no say") {
             const lks_result again = lks_fixed_from_double(value, &out);
             const lks_result rotation_again = lks_rotation_from_axis_angle(x, y, 1, value, &rotation);
             std::fesetround(before);
-            tally.expect(again == result && out == expected, std::bit_cast<std::uint64_t>(value));
+            tally.expect(again == result && out == expected, lks::bits_of(value));
             tally.expect(rotation_again == rotation_result && same(rotation, expected_rotation),
-                         std::bit_cast<std::uint64_t>(value));
+                         lks::bits_of(value));
         }
     }
     LKS_CHECK_TALLY(tally);

@@ -2,8 +2,8 @@
 // comparison on a double anywhere, so neither rounding modes nor flags nor the FPU can have a say.
 #pragma once
 
-#include <bit>
 #include <cstdint>
+#include <cstring>
 
 #include "fixed/scaled.h"
 
@@ -19,10 +19,17 @@ struct SignedScaled {
 
 static_assert(sizeof(double) == sizeof(std::uint64_t), "double must be an IEEE 754 binary64");
 
+// std::bit_cast is younger than some of the C++ libraries that are in use, emscripten's among them.
+inline std::uint64_t bits_of(double value) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof(bits));
+    return bits;
+}
+
 inline NumberClass classify_double(double value) {
     constexpr std::uint64_t exponent_mask = std::uint64_t{0x7ff} << 52;
     constexpr std::uint64_t fraction_mask = (std::uint64_t{1} << 52) - 1;
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(value);
+    const std::uint64_t bits = bits_of(value);
     if ((bits & exponent_mask) != exponent_mask)
         return NumberClass::finite;
     return (bits & fraction_mask) != 0 ? NumberClass::not_a_number : NumberClass::infinite;
@@ -32,7 +39,7 @@ inline NumberClass classify_double(double value) {
 inline bool decode_double(double value, SignedScaled& out) {
     if (classify_double(value) != NumberClass::finite)
         return false;
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(value);
+    const std::uint64_t bits = bits_of(value);
     const fixed::Scaled magnitude = fixed::Scaled::from_double_bits(bits);
     out = {(bits >> 63) != 0 && !magnitude.is_zero(), magnitude};
     return true;

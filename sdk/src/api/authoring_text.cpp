@@ -1,7 +1,5 @@
 #include "api/authoring_text.h"
 
-#include <bit>
-
 namespace lks {
 namespace {
 
@@ -64,7 +62,7 @@ Sentence& operator<<(Sentence& sentence, const Authored& number) {
     case NumberClass::not_a_number:
         return sentence << "NaN";
     case NumberClass::infinite:
-        return sentence << (std::bit_cast<std::uint64_t>(number.value) >> 63 != 0 ? "-infinite" : "infinite");
+        return sentence << (bits_of(number.value) >> 63 != 0 ? "-infinite" : "infinite");
     case NumberClass::finite:
         break;
     }

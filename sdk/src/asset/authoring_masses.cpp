@@ -1,7 +1,6 @@
 #include "asset/authoring_masses.h"
 
-#include <bit>
-
+#include "api/authoring_number.h"
 #include "api/authoring_text.h"
 #include "asset/authoring_values.h"
 
@@ -40,7 +39,7 @@ lks_result read_vertex_mass(Build& build, std::uint32_t vertex, double value) {
 
 // The sources are told apart by their bits: +0 and -0 are "not given".
 bool is_given(double value) {
-    return std::bit_cast<std::uint64_t>(value) << 1 != 0;
+    return bits_of(value) << 1 != 0;
 }
 
 } // namespace
