@@ -109,7 +109,7 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
     problem.parameters.product_shift = gain_bits - shift + exponent;
     problem.parameters.error_share = kind.damped ? static_cast<std::uint32_t>(random.bits() >> 33) : unit_one;
     problem.parameters.damping_share = kind.damped ? static_cast<std::uint32_t>(random.bits() >> 33) : 0;
-    problem.positions.resize(6 * n);
+    problem.positions.resize(6 * n + widest_group - 1);
     for (std::size_t i = 0; i < problem.positions.size(); ++i) {
         problem.positions[i] = signed_below(random, 61);
     }
@@ -169,7 +169,6 @@ Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Pro
         ++task.runs;
         --task.run_count;
     }
-    task.particle_count = n;
     task.whole_batch = range.first == 0 && range.last == batch.constraints.size();
     task.first_single = batch.first_single;
     task.constraints = batch.constraints.data();

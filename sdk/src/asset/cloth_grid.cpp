@@ -150,7 +150,8 @@ lks_result build_cloth_grid(Build& build, const lks_cloth_def& def) {
     if (const lks_result result = grid.spread_mass(def, width, height); result != LKS_OK) {
         return result;
     }
-    if (!grid.add_constraints() || !grid.add_triangles() || !number_rows(build, def.columns, def.rows)) {
+    if (!grid.add_constraints() || !grid.add_triangles() ||
+        !number_rows(build, def.columns, def.rows, def.bend.enabled != 0 ? 4 : 2)) {
         return build.fail_out_of_memory();
     }
     return assemble(build);

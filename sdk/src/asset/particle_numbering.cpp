@@ -90,26 +90,26 @@ bool collect_matching(const Build& build, std::size_t end, const Array<std::uint
 
 } // namespace
 
-bool number_rows(Build& build, std::uint32_t columns, std::uint32_t rows) {
+bool number_rows(Build& build, std::uint32_t columns, std::uint32_t rows, std::uint32_t stride) {
     if (!build.order.reserve(std::size_t{columns} * rows)) {
         return false;
     }
-    // Every fourth row, and in it every fourth of the columns [first, last).
+    // One row in `stride`, and in it one in `stride` of the columns [first, last).
     const auto number_block = [&](std::uint32_t first_row, std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t row = first_row; row < rows; row += 4) {
-            for (std::uint32_t column = first; column < last; column += 4) {
+        for (std::uint32_t row = first_row; row < rows; row += stride) {
+            for (std::uint32_t column = first; column < last; column += stride) {
                 build.order.push_reserved(row * columns + column);
             }
         }
     };
-    const std::uint32_t even_columns = columns / 4 * 4;
-    for (std::uint32_t column = 0; column < 4 && column < even_columns; ++column) {
-        for (std::uint32_t row = 0; row < 4; ++row) {
+    const std::uint32_t even_columns = columns / stride * stride;
+    for (std::uint32_t column = 0; column < stride && column < even_columns; ++column) {
+        for (std::uint32_t row = 0; row < stride; ++row) {
             number_block(row, column, even_columns);
         }
     }
     for (std::uint32_t column = even_columns; column < columns; ++column) {
-        for (std::uint32_t row = 0; row < 4; ++row) {
+        for (std::uint32_t row = 0; row < stride; ++row) {
             number_block(row, column, column + 1);
         }
     }

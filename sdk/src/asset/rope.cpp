@@ -100,8 +100,8 @@ lks_result build_rope(Build& build, const lks_rope_def& def) {
         result != LKS_OK) {
         return result;
     }
-    if (!add_constraints(build) ||
-        !number_rows(build, static_cast<std::uint32_t>(build.positions.size()), 1)) {
+    if (!add_constraints(build) || !number_rows(build, static_cast<std::uint32_t>(build.positions.size()), 1,
+                                                def.bend.enabled != 0 ? 4 : 2)) {
         return build.fail_out_of_memory();
     }
     return assemble(build);

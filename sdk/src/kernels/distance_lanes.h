@@ -501,8 +501,13 @@ inline void project_in_groups(const DistanceTask& task) {
     const Projection<equal_shares, soft, damped, multiplier> project_one(task);
     ScatteredAccess<L> scattered;
     const auto project_scattered = [&] {
-        scattered.fill_up();
-        if (!groups.project(scattered)) {
+        // A group costs as much as two or three constraints by themselves.
+        bool done = false;
+        if (scattered.count > 2) {
+            scattered.fill_up();
+            done = groups.project(scattered);
+        }
+        if (!done) {
             for (std::uint32_t i = 0; i < scattered.count; ++i) {
                 project_one(scattered.constraint[i], scattered.a[i], scattered.b[i]);
             }
@@ -532,8 +537,8 @@ inline void project_in_groups(const DistanceTask& task) {
             if (left + spare >= lanes && groups.template project<false>(rest, left)) {
                 return;
             }
-            // b is the upper end. Other lanes are read, so nobody else may write them.
-            if (task.whole_batch && left >= L::half && b + i + lanes <= task.particle_count &&
+            // Lanes beyond its end are read, so nobody else may write them meanwhile.
+            if (task.whole_batch && left >= L::half &&
                 groups.template project<false>(TailAccess<L>{rest, left}, left)) {
                 return;
             }

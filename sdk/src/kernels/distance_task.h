@@ -8,6 +8,7 @@
 
 namespace lks {
 
+// Of the particles of one object. Kernels may read up to widest_group − 1 elements behind each.
 struct DistanceArrays {
     std::int64_t* x;
     std::int64_t* y;
@@ -40,7 +41,6 @@ struct DistanceTask {
     ConstraintRange range;
     const Run* runs; // those that reach into the range, in order, and then perhaps others
     std::uint32_t run_count;
-    std::uint32_t particle_count;
     bool whole_batch;           // the range is all of it: nobody else is at work on the batch
     std::uint32_t first_single; // constraint: from here on its ends are in `constraints`
     const Constraint* constraints;

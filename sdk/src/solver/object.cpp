@@ -18,7 +18,8 @@ Object::~Object() {
 bool Object::allocate(bool with_forces, bool need_multipliers, bool keep_previous) {
     record_forces = with_forces;
     const std::size_t n = count();
-    return particles.resize(6 * n) && (!need_multipliers || multipliers.resize(asset_->constraints.size())) &&
+    return particles.reserve(6 * n + widest_group - 1) && particles.resize(6 * n) &&
+           (!need_multipliers || multipliers.resize(asset_->constraints.size())) &&
            (!keep_previous || previous.resize(3 * n));
 }
 

@@ -88,7 +88,8 @@ public:
     std::int64_t gravity_factor = 0; // World
     std::int64_t linear_damping = 0; // World, 1/s
     bool record_forces = false;
-    Array<std::int64_t> particles;   // x, y, z, then the starts of x, y, z: six arrays of count(), Coordinate
+    Array<std::int64_t> particles; // x, y, z, then the starts of x, y, z: six arrays of count(), Coordinate;
+                                   // room behind for kernels
     Array<std::int64_t> multipliers; // Λ by constraint, Coordinate; state only where forces are recorded
 
     // Where forces are recorded: the particles that were pinned in the last tick, whose forces multipliers
