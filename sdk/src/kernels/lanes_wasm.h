@@ -12,7 +12,8 @@ struct LanesWasm {
     static constexpr std::uint32_t half = 2;
     using Register = v128_t;
     using Shift = std::uint32_t;
-    static constexpr bool has_signed_shift = true;
+    // There is one, but x86 before AVX-512 has none, and engines make it of several instructions.
+    static constexpr bool has_signed_shift = false;
 
     static Register load(const std::int64_t* p) { return wasm_v128_load(p); }
     static void store(std::int64_t* p, Register v) { wasm_v128_store(p, v); }
@@ -30,7 +31,6 @@ struct LanesWasm {
     static Register add(Register a, Register b) { return wasm_i64x2_add(a, b); }
     static Register subtract(Register a, Register b) { return wasm_i64x2_sub(a, b); }
     static Register shift_right(Register v, Shift count) { return wasm_u64x2_shr(v, count); }
-    static Register shift_right_signed(Register v, Shift count) { return wasm_i64x2_shr(v, count); }
     template <int count>
     static Register shift_right(Register v) {
         return wasm_u64x2_shr(v, count);
@@ -52,7 +52,7 @@ struct LanesWasm {
     static Register equal(Register a, Register b) { return wasm_i64x2_eq(a, b); }
     // b where the 64-bit lane of `sign` is negative.
     static Register select_by_sign(Register a, Register b, Register sign) {
-        return wasm_v128_bitselect(b, a, wasm_i64x2_shr(sign, 63));
+        return wasm_v128_bitselect(b, a, wasm_i64x2_lt(sign, wasm_i64x2_splat(0)));
     }
 
     // Of the low halves of 64-bit lanes.
@@ -119,7 +119,13 @@ struct LanesWasm {
     static bool all(Register v) { return !wasm_v128_any_true(wasm_v128_not(v)); }
 
 private:
-    static Register low_halves(Register v) { return wasm_i32x4_shuffle(v, v, 0, 2, 0, 2); }
+    // The compiler may not look through it: it would share one widened operand between several products, far
+    // apart, and then take 64-bit multiplications for them, which no processor has.
+    static Register low_halves(Register v) {
+        Register low = wasm_i32x4_shuffle(v, v, 0, 2, 0, 2);
+        __asm__ volatile("" : "+r"(low));
+        return low;
+    }
 };
 
 } // namespace
