@@ -2,10 +2,13 @@
 // beside a plain float32 loop; and snapshots beside memcpy.
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 
+#include "float_runs.h"
 #include "measure.h"
 #include "plain_float.h"
 #include "solver/distance.h"
@@ -70,6 +73,28 @@ private:
     std::vector<std::vector<std::int64_t>> saved_;
 };
 
+// Whether a float32 kernel comes to what double precision comes to, in ten passes: it must not be fast by
+// being wrong.
+bool is_right(const FloatRuns& cloth, void (*project)(FloatRuns&)) {
+    FloatRuns work = cloth;
+    std::vector<double> x(cloth.x.begin(), cloth.x.end());
+    std::vector<double> y(cloth.y.begin(), cloth.y.end());
+    std::vector<double> z(cloth.z.begin(), cloth.z.end());
+    for (int pass = 0; pass < 10; ++pass) {
+        project(work);
+        project_double(cloth, x, y, z);
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double distance = std::abs(x[i] - static_cast<double>(work.x[i])) +
+                                std::abs(y[i] - static_cast<double>(work.y[i])) +
+                                std::abs(z[i] - static_cast<double>(work.z[i]));
+        if (!(distance < 1e-5)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 struct Options {
     std::vector<std::string> names;
     int rounds = 21;
@@ -117,6 +142,7 @@ void measure_workload(const Options& options, const Workload& workload) {
         std::printf("%s: %s, %llu constraints\n", workload.name.c_str(), workload.title.c_str(),
                     static_cast<unsigned long long>(worlds[0]->constraints()));
     }
+    FloatRuns runs;
     FloatCloth coloured;
     FloatCloth indexed;
     if (!workload.rope && workload.compliance == 0) {
@@ -124,6 +150,30 @@ void measure_workload(const Options& options, const Workload& workload) {
         coloured = make_float_cloth(asset, true);
         indexed = make_float_cloth(asset, false);
         const double units = 20.0 * asset.constraint_count();
+        runs = make_float_runs(asset, 0, workload.side - 1);
+        const auto add_runs = [&](const char* name, void (*project)(FloatRuns&)) {
+            FloatRuns* work = &runs;
+            if (!is_right(runs, project)) {
+                std::fprintf(stderr, "lockstitch-bench: %s is not what double precision comes to.\n", name);
+                std::exit(1);
+            }
+            passes.push_back({name,
+                              [work, project] {
+                                  for (int pass = 0; pass < 20; ++pass) {
+                                      project(*work);
+                                  }
+                              },
+                              units});
+        };
+        add_runs("float32 runs, scalar", project_float_runs_scalar);
+#if defined(LKS_BENCH_X86)
+        if (lks_simd_is_available(LKS_SIMD_AVX2) != 0) {
+            add_runs("float32 runs, AVX2", project_float_runs_avx2);
+        }
+        if (lks_simd_is_available(LKS_SIMD_AVX512) != 0) {
+            add_runs("float32 runs, AVX-512", project_float_runs_avx512);
+        }
+#endif
         for (auto [name, cloth] : {std::pair{"float32 plain, coloured", &coloured},
                                    std::pair{"float32 plain, by index", &indexed}}) {
             FloatCloth* work = cloth;

@@ -194,9 +194,8 @@ Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Pro
 } // namespace
 
 TEST_CASE("kernels: every instruction set projects random and extreme edges as plain integers do") {
-    // 943 constraints a problem: 9 kinds · 1200 problems are 10^7 for each set, and ten times that in a long
-    // run.
-    const int problems = test::long_run() ? 12000 : 1200;
+    // Some 943 constraints a problem, 9 kinds: 10^7 for each set, fewer where a build is slow.
+    const auto problems = static_cast<int>(test::sample_count() / 8000);
     for (const Kernels* kernels : wide_kernels()) {
         test::Random random(31);
         for (const Kind& kind : kinds) {

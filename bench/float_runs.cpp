@@ -1,0 +1,78 @@
+#include "float_runs.h"
+
+#include "float_runs_lanes.h"
+
+namespace lks_bench {
+
+FloatRuns make_float_runs(const lks_asset& asset, std::uint32_t pinned_vertex_a,
+                          std::uint32_t pinned_vertex_b) {
+    constexpr float metre = 1.0f / 72057594037927936.0f; // 2^-56
+    const std::size_t padding = lks::widest_group;
+    FloatRuns cloth;
+    for (std::uint32_t particle = 0; particle < asset.vertex_count(); ++particle) {
+        const lks::Coordinates& p = asset.rest_positions[particle];
+        // A little out of place, so that there is something to correct.
+        const float jitter = 1e-3f * static_cast<float>(particle * 2654435761u >> 24) / 256.0f;
+        cloth.x.push_back(static_cast<float>(p.x) * metre + jitter);
+        cloth.y.push_back(static_cast<float>(p.y) * metre - jitter);
+        cloth.z.push_back(static_cast<float>(p.z) * metre + jitter);
+    }
+    const auto pinned = [&](std::uint32_t particle) {
+        const std::uint32_t vertex = asset.particle_to_vertex[particle];
+        return vertex == pinned_vertex_a || vertex == pinned_vertex_b;
+    };
+    for (std::uint32_t i = 0; i < asset.constraint_count(); ++i) {
+        const lks::Constraint ends = asset.constraints[i];
+        const bool a = pinned(ends.a);
+        const bool b = pinned(ends.b);
+        cloth.constraints.push_back(ends);
+        cloth.rests.push_back(static_cast<float>(asset.rest_lengths[i]) * metre);
+        cloth.shares_a.push_back(a ? 0.0f : b ? 1.0f : 0.5f);
+        cloth.shares_b.push_back(b ? 0.0f : a ? 1.0f : 0.5f);
+    }
+    for (const lks::Batch& batch : asset.batches) {
+        FloatBatch& made = cloth.batches.emplace_back();
+        made.runs.assign(asset.runs.data() + batch.first_run,
+                         asset.runs.data() + batch.first_run + batch.run_count);
+        for (std::uint32_t i = batch.first_single; i < batch.first + batch.count; ++i) {
+            made.singles.push_back(i);
+        }
+        for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
+            made.equal_shares = made.equal_shares && cloth.shares_a[i] == cloth.shares_b[i];
+        }
+    }
+    for (std::vector<float>* values :
+         {&cloth.x, &cloth.y, &cloth.z, &cloth.rests, &cloth.shares_a, &cloth.shares_b}) {
+        values->resize(values->size() + padding, 1.0f);
+    }
+    return cloth;
+}
+
+void project_double(const FloatRuns& cloth, std::vector<double>& x, std::vector<double>& y,
+                    std::vector<double>& z) {
+    for (std::size_t i = 0; i < cloth.constraints.size(); ++i) {
+        const auto [a, b] = cloth.constraints[i];
+        const double dx = x[a] - x[b], dy = y[a] - y[b], dz = z[a] - z[b];
+        const double ratio = cloth.rests[i] / __builtin_sqrt(dx * dx + dy * dy + dz * dz);
+        const double f = (ratio < 2 ? ratio : 2) - 1;
+        const double f_a = f * static_cast<double>(cloth.shares_a[i]);
+        const double f_b = f * static_cast<double>(cloth.shares_b[i]);
+        x[a] += dx * f_a, y[a] += dy * f_a, z[a] += dz * f_a;
+        x[b] -= dx * f_b, y[b] -= dy * f_b, z[b] -= dz * f_b;
+    }
+}
+
+void project_float_runs_scalar(FloatRuns& cloth) {
+    for (const FloatBatch& batch : cloth.batches) {
+        for (const lks::Run& run : batch.runs) {
+            for (std::uint32_t i = 0; i < run.count; ++i) {
+                project_one(cloth, run.first + i, run.a + i, run.b + i);
+            }
+        }
+        for (const std::uint32_t i : batch.singles) {
+            project_one(cloth, i, cloth.constraints[i].a, cloth.constraints[i].b);
+        }
+    }
+}
+
+} // namespace lks_bench

@@ -1,0 +1,39 @@
+// The same cloth in float32, with the same care: our order, colours and runs, x, y, z as arrays, one estimate
+// of 1/√ and one Newton step, groups that run over the end of a run where nobody minds.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "asset/asset.h"
+
+namespace lks_bench {
+
+struct FloatBatch {
+    std::vector<lks::Run> runs;
+    std::vector<std::uint32_t> singles; // constraints
+    bool equal_shares = true;
+};
+
+struct FloatRuns {
+    std::vector<float> x, y, z; // by particle, in the solver's order, with room behind
+    std::vector<lks::Constraint> constraints;
+    std::vector<float> rests;
+    std::vector<float> shares_a, shares_b;
+    std::vector<FloatBatch> batches;
+};
+
+// Two corners pinned, the others of one mass.
+FloatRuns make_float_runs(const lks_asset& asset, std::uint32_t pinned_vertex_a,
+                          std::uint32_t pinned_vertex_b);
+
+// One pass over all constraints, no compliance, L/len clamped to 2.
+void project_float_runs_scalar(FloatRuns& cloth);
+void project_float_runs_avx2(FloatRuns& cloth);
+void project_float_runs_avx512(FloatRuns& cloth);
+
+// The same cloth in double precision, one constraint after the other: what the others must come to.
+void project_double(const FloatRuns& cloth, std::vector<double>& x, std::vector<double>& y,
+                    std::vector<double>& z);
+
+} // namespace lks_bench

@@ -1,0 +1,95 @@
+// float_runs.h over lanes: V has `width` of them.
+#pragma once
+
+#include "float_runs.h"
+
+namespace lks_bench {
+namespace {
+
+inline void project_one(FloatRuns& cloth, std::uint32_t i, std::uint32_t a, std::uint32_t b) {
+    const float x = cloth.x[a] - cloth.x[b];
+    const float y = cloth.y[a] - cloth.y[b];
+    const float z = cloth.z[a] - cloth.z[b];
+    const float ratio = cloth.rests[i] / __builtin_sqrtf(x * x + y * y + z * z);
+    const float f = (ratio < 2.0f ? ratio : 2.0f) - 1.0f;
+    const float f_a = f * cloth.shares_a[i];
+    const float f_b = f * cloth.shares_b[i];
+    cloth.x[a] += x * f_a;
+    cloth.y[a] += y * f_a;
+    cloth.z[a] += z * f_a;
+    cloth.x[b] -= x * f_b;
+    cloth.y[b] -= y * f_b;
+    cloth.z[b] -= z * f_b;
+}
+
+// Lanes from `count` on are left as they are.
+template <typename V, bool equal_shares, bool whole>
+inline void project_group(FloatRuns& cloth, std::uint32_t i, std::uint32_t a, std::uint32_t b,
+                          std::uint32_t count) {
+    using R = typename V::Register;
+    float* const px = cloth.x.data();
+    float* const py = cloth.y.data();
+    float* const pz = cloth.z.data();
+    const R xa = V::load(px + a), ya = V::load(py + a), za = V::load(pz + a);
+    const R xb = V::load(px + b), yb = V::load(py + b), zb = V::load(pz + b);
+    const R x = V::subtract(xa, xb), y = V::subtract(ya, yb), z = V::subtract(za, zb);
+    const R u = V::multiply_add(x, x, V::multiply_add(y, y, V::multiply(z, z)));
+    // y0·(3/2 − u/2·y0²)
+    const R y0 = V::reciprocal_sqrt_estimate(u);
+    const R half_u = V::multiply(u, V::set(-0.5f));
+    const R inverse = V::multiply(y0, V::multiply_add(V::multiply(half_u, y0), y0, V::set(1.5f)));
+    const R ratio = V::least(V::multiply(V::load(cloth.rests.data() + i), inverse), V::set(2.0f));
+    R f = V::subtract(ratio, V::set(1.0f));
+    if constexpr (!whole) {
+        f = V::first(f, count);
+    }
+    const R f_a = V::multiply(f, V::load(cloth.shares_a.data() + i));
+    R cx = V::multiply(x, f_a), cy = V::multiply(y, f_a), cz = V::multiply(z, f_a);
+    V::store(px + a, V::add(xa, cx));
+    V::store(py + a, V::add(ya, cy));
+    V::store(pz + a, V::add(za, cz));
+    if constexpr (!equal_shares) {
+        const R f_b = V::multiply(f, V::load(cloth.shares_b.data() + i));
+        cx = V::multiply(x, f_b);
+        cy = V::multiply(y, f_b);
+        cz = V::multiply(z, f_b);
+    }
+    V::store(px + b, V::subtract(xb, cx));
+    V::store(py + b, V::subtract(yb, cy));
+    V::store(pz + b, V::subtract(zb, cz));
+}
+
+template <typename V, bool equal_shares>
+inline void project_batch(FloatRuns& cloth, const FloatBatch& batch) {
+    for (const lks::Run& run : batch.runs) {
+        std::uint32_t i = 0;
+        for (; i + V::width <= run.count; i += V::width) {
+            project_group<V, equal_shares, true>(cloth, run.first + i, run.a + i, run.b + i, V::width);
+        }
+        const std::uint32_t left = run.count - i;
+        if (left != 0 && left + run.spare >= V::width) {
+            project_group<V, equal_shares, false>(cloth, run.first + i, run.a + i, run.b + i, left);
+            continue;
+        }
+        for (; i < run.count; ++i) {
+            project_one(cloth, run.first + i, run.a + i, run.b + i);
+        }
+    }
+    for (const std::uint32_t i : batch.singles) {
+        project_one(cloth, i, cloth.constraints[i].a, cloth.constraints[i].b);
+    }
+}
+
+template <typename V>
+inline void project_all(FloatRuns& cloth) {
+    for (const FloatBatch& batch : cloth.batches) {
+        if (batch.equal_shares) {
+            project_batch<V, true>(cloth, batch);
+        } else {
+            project_batch<V, false>(cloth, batch);
+        }
+    }
+}
+
+} // namespace
+} // namespace lks_bench
