@@ -138,6 +138,9 @@ void measure_workload(const Options& options, const Workload& workload) {
                           constraints * per_tick});
         ticks.push_back({lks_simd_name(level), [world] { lks_world_step(world); }, constraints * per_tick});
     }
+    const BenchWorld pair(workload, available_levels().back(), 2);
+    ticks.push_back({std::string(lks_simd_name(available_levels().back())) + ", 2 workers",
+                     [world = pair.world()] { lks_world_step(world); }, ticks.back().units});
     if (!options.json) {
         std::printf("%s: %s, %llu constraints\n", workload.name.c_str(), workload.title.c_str(),
                     static_cast<unsigned long long>(worlds[0]->constraints()));

@@ -76,12 +76,14 @@ const std::vector<Workload>& workloads() {
     return all;
 }
 
-BenchWorld::BenchWorld(const Workload& workload, lks_simd simd) : asset_(make_asset(workload)) {
+BenchWorld::BenchWorld(const Workload& workload, lks_simd simd, std::uint32_t workers)
+    : asset_(make_asset(workload)) {
     lks_error error{};
     lks_world_def def = lks_default_world_def();
     def.substeps = workload.substeps;
     def.iterations = workload.iterations;
     def.simd = static_cast<std::uint32_t>(simd);
+    def.worker_count = workers;
     def.error = &error;
     demand(lks_world_create(&def, &world_), "a world", error.message);
     for (std::uint32_t i = 0; i < workload.objects; ++i) {

@@ -27,7 +27,7 @@ const std::vector<Workload>& workloads();
 // A world with the workload in it, a third of a second old. Exits with a sentence where the library refuses.
 class BenchWorld {
 public:
-    BenchWorld(const Workload& workload, lks_simd simd);
+    BenchWorld(const Workload& workload, lks_simd simd, std::uint32_t workers = 1);
     ~BenchWorld();
     BenchWorld(const BenchWorld&) = delete;
     BenchWorld& operator=(const BenchWorld&) = delete;

@@ -5,6 +5,7 @@
 #include "program/commands.h"
 #include "program/golden_pictures.h"
 #include "program/golden_run.h"
+#include "program/machine_options.h"
 #include "program/messages.h"
 
 namespace lks_program {
@@ -28,7 +29,8 @@ bool write_state(const std::string& golden, const lks_golden::GoldenState& state
 
 int bless(const GoldenOptions& options) {
     std::vector<std::string> scenes;
-    if (!resolve_scenes(options.scenes, scenes)) {
+    lks_demo::SceneOptions scene_options;
+    if (!resolve_scenes(options.scenes, scenes) || !resolve_machine(options.machine, scene_options)) {
         return exit_usage;
     }
     const std::string golden = find_golden(options);
@@ -48,7 +50,7 @@ int bless(const GoldenOptions& options) {
     }
     for (const std::string& scene : scenes) {
         lks_golden::GoldenState state;
-        if (!run_golden(scene, picture, state, error) ||
+        if (!run_golden(scene, scene_options, picture, state, error) ||
             (!options.images_only && !write_state(golden, state, error))) {
             return complain(error, exit_failed);
         }

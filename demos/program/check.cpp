@@ -6,6 +6,7 @@
 #include "program/commands.h"
 #include "program/golden_pictures.h"
 #include "program/golden_run.h"
+#include "program/machine_options.h"
 #include "program/messages.h"
 
 namespace lks_program {
@@ -21,8 +22,9 @@ bool read_file(const std::filesystem::path& path, std::string& text) {
 
 class Check {
 public:
-    Check(const GoldenOptions& options, const std::string& golden, GoldenPictures* pictures)
-        : options_(options), golden_(golden), pictures_(pictures) {}
+    Check(const GoldenOptions& options, const lks_demo::SceneOptions& scene_options,
+          const std::string& golden, GoldenPictures* pictures)
+        : options_(options), scene_options_(scene_options), golden_(golden), pictures_(pictures) {}
 
     void check_scene(const std::string& name) {
         std::vector<PictureResult> pictures;
@@ -35,7 +37,7 @@ public:
         }
         lks_golden::GoldenState actual;
         std::string error;
-        if (!run_golden(name, picture, actual, error)) {
+        if (!run_golden(name, scene_options_, picture, actual, error)) {
             fail(name, error);
             return;
         }
@@ -108,6 +110,7 @@ private:
     }
 
     const GoldenOptions& options_;
+    const lks_demo::SceneOptions& scene_options_;
     std::string golden_;
     GoldenPictures* pictures_;
     std::vector<PictureResult> all_pictures_;
@@ -120,7 +123,8 @@ private:
 
 int check(const GoldenOptions& options) {
     std::vector<std::string> scenes;
-    if (!resolve_scenes(options.scenes, scenes)) {
+    lks_demo::SceneOptions scene_options;
+    if (!resolve_scenes(options.scenes, scenes) || !resolve_machine(options.machine, scene_options)) {
         return exit_usage;
     }
     const std::string golden = find_golden(options);
@@ -132,7 +136,7 @@ int check(const GoldenOptions& options) {
             return complain(error, exit_failed);
         }
     }
-    Check work(options, golden, pictures.get());
+    Check work(options, scene_options, golden, pictures.get());
     for (const std::string& scene : scenes) {
         work.check_scene(scene);
     }

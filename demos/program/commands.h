@@ -12,6 +12,11 @@ struct ListOptions {
     bool json = false;
 };
 
+struct MachineOptions {
+    std::uint32_t workers = 1;
+    std::string simd; // a name of lockstitch/simd.h; empty: the best
+};
+
 struct RunOptions {
     std::string scene;
     std::uint32_t ticks = 0; // 0: the scene's own
@@ -19,7 +24,7 @@ struct RunOptions {
     std::string schedule; // a file of nanoseconds a frame
     std::string offset_km;
     std::uint32_t hash_every = 0; // 0: only the last
-    std::string simd;             // a name of lockstitch/simd.h; empty: the best
+    MachineOptions machine;
     bool json = false;
 };
 
@@ -40,6 +45,7 @@ struct GoldenOptions {
     std::string golden; // empty: golden/ here, or where the program was built
     std::string out = "out/check";
     std::string gl = "auto";
+    MachineOptions machine;
 };
 
 int list(const ListOptions& options);

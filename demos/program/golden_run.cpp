@@ -18,9 +18,10 @@ std::string find_golden(const GoldenOptions& options) {
                                                           : std::string(LOCKSTITCH_GOLDEN_FOLDER);
 }
 
-bool run_golden(const std::string& name, const std::function<bool(lks_demo::Scene&, std::string&)>& picture,
+bool run_golden(const std::string& name, const lks_demo::SceneOptions& options,
+                const std::function<bool(lks_demo::Scene&, std::string&)>& picture,
                 lks_golden::GoldenState& state, std::string& error) {
-    const std::unique_ptr<lks_demo::Scene> scene = lks_demo::create_scene(name, {}, error);
+    const std::unique_ptr<lks_demo::Scene> scene = lks_demo::create_scene(name, options, error);
     if (scene == nullptr) {
         return false;
     }

@@ -16,7 +16,8 @@ std::string find_golden(const GoldenOptions& options);
 // Runs the scene through its golden ticks and records them. `picture` (may be empty) is called at the scene's
 // image ticks; false from it ends the run. False, with a sentence: the scene can't be made or run, or a
 // picture failed.
-bool run_golden(const std::string& name, const std::function<bool(lks_demo::Scene&, std::string&)>& picture,
+bool run_golden(const std::string& name, const lks_demo::SceneOptions& options,
+                const std::function<bool(lks_demo::Scene&, std::string&)>& picture,
                 lks_golden::GoldenState& state, std::string& error);
 
 } // namespace lks_program

@@ -37,7 +37,7 @@ public:
         add_golden("check", "Compare scenes with their golden states and images", check_options_, check,
                    "Examples:\n"
                    "  lockstitch check\n"
-                   "  lockstitch check cloth_hang flag --states-only\n"
+                   "  lockstitch check cloth_hang flag --states-only --simd scalar --workers 4\n"
                    "Exit code 1 if anything differs; out/check/index.html shows the pictures side by side.");
         add_golden("bless", "Make the present states and images the golden ones", bless_options_, bless,
                    "Examples:\n"
@@ -81,8 +81,7 @@ private:
             ->add_option("--schedule", run_options_.schedule,
                          "Let real time pass in frames of the nanoseconds in this file, one a line")
             ->excludes(rate);
-        command->add_option("--simd", run_options_.simd,
-                            "auto, scalar, sse4.1, avx2, avx512, neon or wasm: the same hashes");
+        add_machine(*command, run_options_.machine);
         command->add_option("--offset-km", run_options_.offset_km,
                             "Move the scene this far along x, exactly");
         command->add_option("--hash-every", run_options_.hash_every, "Also print every so many ticks");
@@ -126,8 +125,16 @@ private:
                             "The folder with states/ and images/; golden by default");
         command->add_option("--out", options.out, "Where failures are shown")->capture_default_str();
         add_gl(*command, options.gl);
+        add_machine(*command, options.machine);
         command->footer(footer);
         command->callback([this, action, &options] { code_ = action(options); });
+    }
+
+    static void add_machine(CLI::App& command, MachineOptions& machine) {
+        command.add_option("--workers", machine.workers, "Threads at work: the same hashes")
+            ->check(CLI::Range(1u, LKS_MAX_WORKERS));
+        command.add_option("--simd", machine.simd,
+                           "auto, scalar, sse4.1, avx2, avx512, neon or wasm: the same hashes");
     }
 
     static void add_gl(CLI::App& command, std::string& gl) {

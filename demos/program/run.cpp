@@ -6,9 +6,9 @@
 #include "golden/text.h"
 #include "program/commands.h"
 #include "program/frame_times.h"
+#include "program/machine_options.h"
 #include "program/messages.h"
 #include "program/progress.h"
-#include "scenes/nearest_name.h"
 #include "scenes/scene.h"
 
 namespace lks_program {
@@ -79,30 +79,6 @@ int run_world(lks_demo::Scene& scene, std::optional<FrameTimes>& frames, std::ui
     return 0;
 }
 
-// False, with a message: there is no such instruction set, here or at all.
-bool resolve_simd(const std::string& name, lks_simd& simd) {
-    std::vector<std::string> names;
-    for (int level = LKS_SIMD_AUTO; level <= LKS_SIMD_WASM; ++level) {
-        const auto candidate = static_cast<lks_simd>(level);
-        if (lks_simd_is_available(candidate) == 0) {
-            if (name == lks_simd_name(candidate)) {
-                complain("--simd '" + name + "' is not available on this processor or in this build.",
-                         exit_usage);
-                return false;
-            }
-            continue;
-        }
-        if (name == lks_simd_name(candidate)) {
-            simd = candidate;
-            return true;
-        }
-        names.emplace_back(lks_simd_name(candidate));
-    }
-    complain("There is no --simd '" + name + "'; did you mean '" + lks_demo::nearest_name(name, names) + "'?",
-             exit_usage);
-    return false;
-}
-
 } // namespace
 
 int run(const RunOptions& options) {
@@ -117,7 +93,7 @@ int run(const RunOptions& options) {
                             "' is not a number of kilometres from -8388 to 8388.",
                         exit_usage);
     }
-    if (!options.simd.empty() && !resolve_simd(options.simd, scene_options.simd)) {
+    if (!resolve_machine(options.machine, scene_options)) {
         return exit_usage;
     }
     std::optional<FrameTimes> frames;

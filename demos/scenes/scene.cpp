@@ -16,6 +16,7 @@ bool Scene::create(const SceneOptions& options, std::string& error) {
     lks_world_def def = lks_default_world_def();
     configure(def);
     def.simd = static_cast<std::uint32_t>(options.simd);
+    def.worker_count = options.worker_count;
     def.tick_rate_hz = options.tick_rate_hz != 0 ? options.tick_rate_hz : def.tick_rate_hz;
     def.substeps = options.substeps != 0 ? options.substeps : def.substeps;
     def.iterations = options.iterations != 0 ? options.iterations : def.iterations;

@@ -21,11 +21,13 @@ Transform = struct("Transform", ("position", Vec3), ("rotation", Rotation))
 Id = struct("Id", ("index", u32), ("generation", u32))
 Allocator = struct("Allocator", ("allocate", pointer), ("release", pointer), ("user", pointer))
 Callback = struct("Callback", ("call", pointer), ("user", pointer))
+TaskSystem = struct("TaskSystem", ("user", pointer), ("enqueue", pointer), ("finish", pointer))
 Material = struct("Material", ("compliance", real), ("damping", real), ("enabled", u32), ("reserved", u32))
 WorldDef = struct(
     "WorldDef", ("struct_size", u32), ("tick_rate_hz", u32), ("substeps", u32), ("iterations", u32),
     ("gravity", Vec3), ("max_ticks_per_advance", u32), ("excess_time", u32), ("keep_previous_positions", u32),
-    ("reserved", u32), ("before_tick", Callback), ("allocator", Allocator), ("log", Callback),
+    ("simd", u32), ("worker_count", u32), ("reserved", u32), ("tasks", TaskSystem),
+    ("before_tick", Callback), ("allocator", Allocator), ("log", Callback),
     ("error", pointer))
 ClothDef = struct(
     "ClothDef", ("struct_size", u32), ("columns", u32), ("rows", u32), ("vertex_count", u32),

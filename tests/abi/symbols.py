@@ -15,6 +15,10 @@ allowed_libraries = {"libc.so.6", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1
 allowed_functions = {
     "malloc", "free", "memcpy", "memmove", "memset", "memcmp", "strlen", "strcmp", "__stack_chk_fail",
     "getenv",  # LOCKSTITCH_SIMD
+    # a world's own workers; in the C library since glibc 2.34
+    "pthread_create", "pthread_join", "pthread_self", "sched_yield", "pthread_mutex_lock",
+    "pthread_mutex_unlock", "pthread_mutex_destroy", "pthread_cond_wait", "pthread_cond_signal",
+    "pthread_cond_broadcast", "pthread_cond_destroy",
     # every shared library's own start and end
     "__cxa_finalize", "__gmon_start__", "_ITM_deregisterTMCloneTable", "_ITM_registerTMCloneTable",
 }

@@ -169,3 +169,15 @@ TEST_CASE("a world tells the settings that it was made with") {
     CHECK(lks_world_substeps(world) == 12);
     CHECK(lks_world_iterations(world) == 3);
 }
+
+TEST_CASE("no workers and too many and half a task system are refused") {
+    check_world_refused(changed([](auto& def) { def.worker_count = 0; }), LKS_ERROR_INVALID_ARGUMENT, "0");
+    check_world_refused(changed([](auto& def) { def.worker_count = 65; }), LKS_ERROR_INVALID_ARGUMENT, "65");
+    check_world_refused(changed([](auto& def) { def.reserved = 3; }), LKS_ERROR_INVALID_ARGUMENT, "3");
+    check_world_refused(changed([](auto& def) { def.tasks.finish = [](void*, void*) {}; }),
+                        LKS_ERROR_INVALID_ARGUMENT, "task system");
+    check_world_refused(changed([](auto& def) {
+                            def.tasks.enqueue = [](void*, lks_task, void*) -> void* { return nullptr; };
+                        }),
+                        LKS_ERROR_INVALID_ARGUMENT, "task system");
+}

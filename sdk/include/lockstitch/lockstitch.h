@@ -10,6 +10,7 @@
 #include <lockstitch/object.h>
 #include <lockstitch/simd.h>
 #include <lockstitch/state.h>
+#include <lockstitch/tasks.h>
 #include <lockstitch/view.h>
 #include <lockstitch/world.h>
 

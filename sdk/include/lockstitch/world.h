@@ -4,6 +4,7 @@
 
 #include <lockstitch/fixed.h>
 #include <lockstitch/simd.h>
+#include <lockstitch/tasks.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -37,6 +38,9 @@ typedef struct lks_world_def {
     uint32_t keep_previous_positions; /* 1: interpolated views work (24 bytes a particle); 0: they show the
                                          last tick */
     uint32_t simd;                    /* an lks_simd; one that is not available here is refused */
+    uint32_t worker_count; /* threads at work in a tick, the caller's included, 1 .. LKS_MAX_WORKERS */
+    uint32_t reserved;     /* 0 */
+    lks_task_system tasks; /* null functions: with more than one worker, the world's own threads */
     lks_tick_hook before_tick;
     lks_allocator allocator;
     lks_log log;
@@ -52,7 +56,9 @@ LKS_API void lks_world_destroy(lks_world* world); /* null is allowed */
  * world. */
 LKS_API const lks_error* lks_world_last_error(const lks_world* world);
 
-/* Exactly one tick. Allocates nothing; the work is bounded by substeps × iterations. */
+/* Exactly one tick, by the calling thread and up to worker_count - 1 others; small worlds wake nobody. Where
+ * there are no threads (WebAssembly without them) the caller does it all. Allocates nothing; the work is
+ * bounded by substeps × iterations. */
 LKS_API lks_result lks_world_step(lks_world* world);
 
 /* Runs the ticks that have become due after elapsed_ns (0 .. 10^14) more nanoseconds. Time is counted in

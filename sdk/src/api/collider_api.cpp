@@ -48,7 +48,7 @@ bool reserve_slot(lks_world& world, std::uint32_t index) {
         return true;
     }
     const std::size_t capacity = std::max<std::size_t>(16, 2 * world.colliders.size());
-    return world.candidates.reserve(capacity) && world.colliders.reserve(capacity);
+    return world.reserve_colliders(capacity);
 }
 
 lks_result check_transform(const lks_world& world, const lks_transform& transform) {

@@ -28,6 +28,8 @@ lks_result check_world_def(const lks_world_def& def) {
         {"max_ticks_per_advance", def.max_ticks_per_advance, 1, 10000},
         {"excess_time", def.excess_time, LKS_EXCESS_TIME_DROP, LKS_EXCESS_TIME_KEEP},
         {"keep_previous_positions", def.keep_previous_positions, 0, 1},
+        {"worker_count", def.worker_count, 1, LKS_MAX_WORKERS},
+        {"reserved", def.reserved, 0, 0},
         {"simd", def.simd, LKS_SIMD_AUTO, LKS_SIMD_WASM},
     };
     for (const Range& range : ranges) {
@@ -51,6 +53,10 @@ lks_result check_world_def(const lks_world_def& def) {
         return report(def.error, LKS_ERROR_INVALID_ARGUMENT,
                       Sentence() << "The world's simd is " << def.simd << " (" << simd_name(simd)
                                  << "), which this processor or this build of the library has not got.");
+    }
+    if ((def.tasks.enqueue == nullptr) != (def.tasks.finish == nullptr)) {
+        return report(def.error, LKS_ERROR_INVALID_ARGUMENT,
+                      Sentence() << "The world's task system has only one of its two functions.");
     }
     if (!allocator_is_valid(def.allocator)) {
         return report(def.error, LKS_ERROR_INVALID_ARGUMENT,
@@ -84,6 +90,7 @@ lks_world_def lks_default_world_def(void) {
     def.max_ticks_per_advance = 8;
     def.excess_time = LKS_EXCESS_TIME_DROP;
     def.keep_previous_positions = 1;
+    def.worker_count = 1;
     return def;
 }
 
@@ -104,6 +111,12 @@ lks_result lks_world_create(const lks_world_def* def, lks_world** world) {
     if (made == nullptr) {
         return report(def->error, LKS_ERROR_OUT_OF_MEMORY,
                       Sentence() << "The allocator has no memory for a world.");
+    }
+    if (!made->helpers.start(def->worker_count - 1, def->tasks)) {
+        lks::destroy(def->allocator, made);
+        return report(def->error, LKS_ERROR_OUT_OF_MEMORY,
+                      Sentence() << "The system has no thread for a world of " << def->worker_count
+                                 << " workers.");
     }
     *world = made;
     return report(def->error, LKS_OK, Sentence());

@@ -107,20 +107,34 @@ std::uint64_t Object::shift_pin_targets(int axis, std::int64_t shift) {
     return clamped;
 }
 
+namespace {
+
+void extend(const std::int64_t* values, std::uint32_t count, std::int64_t& low, std::int64_t& high) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+        low = std::min(low, values[i]);
+        high = std::max(high, values[i]);
+    }
+}
+
+} // namespace
+
 Bounds Object::bounds() const {
-    const auto extent = [this](int index, std::int64_t& low, std::int64_t& high) {
-        const std::int64_t* values = axis(index);
-        low = values[0];
-        high = values[0];
-        for (std::uint32_t i = 1; i < count(); ++i) {
-            low = std::min(low, values[i]);
-            high = std::max(high, values[i]);
-        }
-    };
-    Bounds result{};
-    extent(0, result.low.x, result.high.x);
-    extent(1, result.low.y, result.high.y);
-    extent(2, result.low.z, result.high.z);
+    const Coordinates any = position(0);
+    Bounds result{{any.x, any.y, any.z}, {any.x, any.y, any.z}};
+    extend(axis(0), count(), result.low.x, result.high.x);
+    extend(axis(1), count(), result.low.y, result.high.y);
+    extend(axis(2), count(), result.low.z, result.high.z);
+    return result;
+}
+
+Bounds Object::swept_bounds(std::uint32_t first, std::uint32_t particle_count) const {
+    const Coordinates any = position(first);
+    Bounds result{{any.x, any.y, any.z}, {any.x, any.y, any.z}};
+    for (int half = 0; half < 2; ++half) {
+        extend(axis(3 * half) + first, particle_count, result.low.x, result.high.x);
+        extend(axis(3 * half + 1) + first, particle_count, result.low.y, result.high.y);
+        extend(axis(3 * half + 2) + first, particle_count, result.low.z, result.high.z);
+    }
     return result;
 }
 

@@ -82,6 +82,8 @@ public:
     std::uint64_t shift_pin_targets(int axis, std::int64_t shift);
 
     Bounds bounds() const;
+    // Of where some of the particles are and were at the start of the substep.
+    Bounds swept_bounds(std::uint32_t first, std::uint32_t count) const;
 
     // State.
     fixed::Vec3 origin{};            // World

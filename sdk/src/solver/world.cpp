@@ -14,9 +14,13 @@ lks_world::lks_world(const lks_world_def& def)
       kernels(lks::find_kernels(static_cast<lks_simd>(def.simd))),
       max_ticks_per_advance(def.max_ticks_per_advance),
       excess_time(static_cast<lks_excess_time>(def.excess_time)),
-      keep_previous(def.keep_previous_positions != 0), gravity{def.gravity.x, def.gravity.y, def.gravity.z},
-      objects(allocator), colliders(allocator), assets(allocator), candidates(allocator),
-      load_staging(allocator) {}
+      keep_previous(def.keep_previous_positions != 0),
+      worker_count(def.worker_count), gravity{def.gravity.x, def.gravity.y, def.gravity.z},
+      objects(allocator), colliders(allocator), assets(allocator), load_staging(allocator) {
+    for (lks::TickScratch& worker : scratch) {
+        worker.candidates.set_allocator(allocator);
+    }
+}
 
 lks_world::~lks_world() {
     for (lks::ObjectSlot& slot : objects) {
@@ -59,6 +63,15 @@ lks::ColliderState* lks_world::find_collider(lks_collider_id id) {
 lks_result lks_world::stale_collider(lks_collider_id id) const {
     return fail(LKS_ERROR_STALE_ID, Sentence() << "There is no collider with index " << id.index
                                                << " and generation " << id.generation << " in this world.");
+}
+
+bool lks_world::reserve_colliders(std::size_t count) {
+    for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
+        if (!scratch[worker].candidates.reserve(count)) {
+            return false;
+        }
+    }
+    return colliders.reserve(count);
 }
 
 const KnownAsset* lks_world::find_asset(std::uint64_t fingerprint) const {

@@ -14,6 +14,8 @@
 #include "memory/array.h"
 #include "solver/object.h"
 #include "solver/step_rate.h"
+#include "solver/tick_scratch.h"
+#include "threads/helpers.h"
 
 namespace lks {
 
@@ -59,6 +61,7 @@ struct lks_world {
     std::uint32_t max_ticks_per_advance;
     lks_excess_time excess_time;
     bool keep_previous;
+    std::uint32_t worker_count;
 
     // State.
     std::uint64_t tick = 0;
@@ -68,8 +71,9 @@ struct lks_world {
 
     // Derived, or none of the simulation's business.
     lks::Array<lks::KnownAsset> assets;
-    lks::Array<std::uint32_t> candidates;  // scratch of a tick: colliders near the object at work
-    lks::Array<lks::Object*> load_staging; // scratch of a load: one a slot
+    lks::Array<lks::Object*> load_staging;     // scratch of a load: one a slot
+    lks::TickScratch scratch[LKS_MAX_WORKERS]; // by worker
+    lks::Helpers helpers;
     lks::Clock clock;
     lks_world_counters counters{};
     bool running = false; // inside a tick's hook
@@ -85,6 +89,8 @@ struct lks_world {
     lks_result stale_collider(lks_collider_id id) const;
 
     const lks::KnownAsset* find_asset(std::uint64_t fingerprint) const;
+    // Room for so many colliders, in every worker's scratch too. False: no memory.
+    [[nodiscard]] bool reserve_colliders(std::size_t count);
     // The asset among the known ones, added if it is new. Null: no memory.
     const lks::KnownAsset* know_asset(const lks_asset& asset);
     // Those known last, until `count` are left.

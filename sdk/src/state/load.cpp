@@ -210,8 +210,7 @@ private:
     bool reserve() {
         return world_.load_staging.reserve(header_.object_slots) &&
                world_.objects.reserve(header_.object_slots) &&
-               world_.colliders.reserve(header_.collider_slots) &&
-               world_.candidates.reserve(header_.collider_slots);
+               world_.reserve_colliders(header_.collider_slots);
     }
 
     bool is_present(std::size_t slot, const Object* object) const {

@@ -1,0 +1,233 @@
+#include "solver/object_tick.h"
+
+#include <algorithm>
+
+#include "collide/broad_phase.h"
+#include "collide/contact.h"
+#include "fixed/formats.h"
+#include "solver/distance.h"
+#include "solver/local_frame.h"
+#include "solver/pins.h"
+#include "solver/prediction.h"
+#include "solver/world.h"
+
+namespace lks {
+namespace {
+
+// How one object moves through one tick.
+class ObjectTick {
+public:
+    ObjectTick(const lks_world& world, Object& object, TickScratch& scratch, Team* team)
+        : world_(world), object_(object), scratch_(scratch), team_(team), asset_(object.asset()),
+          coefficients_(object.coefficients()), kept_(kept_share(world.rate, object.linear_damping)) {
+        const std::int64_t gravity[3] = {world.gravity.x, world.gravity.y, world.gravity.z};
+        for (int axis = 0; axis < 3; ++axis) {
+            acceleration_[axis] = motion_from_acceleration(world.rate, gravity[axis], object.gravity_factor);
+        }
+    }
+
+    void run() {
+        Bounds bounds = object_.bounds();
+        follow_object(object_, bounds, scratch_.counters);
+        keep_previous();
+        begin_pin_motion(object_);
+        object_.record_pins();
+        find_candidates(bounds);
+        for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
+            run_substep(substep);
+        }
+    }
+
+private:
+    void keep_previous() {
+        std::copy_n(object_.particles.data(), object_.previous.size(), object_.previous.data());
+    }
+
+    // Colliders that the object can reach in this tick at its speed limit; each substep looks at its true
+    // bounds again.
+    void find_candidates(Bounds bounds) {
+        scratch_.candidates.clear();
+        if (world_.colliders.empty()) {
+            return;
+        }
+        for (const Pin& pin : object_.pins()) {
+            include(bounds, pin.target);
+        }
+        const std::int64_t reach =
+            std::min(world_.rate.motion_limit, coordinate_limit / world_.rate.substeps) *
+            world_.rate.substeps;
+        grow(bounds, reach);
+        for (std::uint32_t i = 0; i < world_.colliders.size(); ++i) {
+            const ColliderSlot& slot = world_.colliders[i];
+            if (slot.used && may_touch(slot.collider, object_.origin, bounds, asset_.particle_radius)) {
+                scratch_.candidates.push_reserved(i);
+            }
+        }
+    }
+
+    void run_substep(std::uint32_t substep) {
+        predict();
+        place_pins(object_, substep, world_.rate.substeps);
+        if (!object_.multipliers.empty()) {
+            std::fill(object_.multipliers.begin(), object_.multipliers.end(), 0);
+        }
+        for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
+            for (std::uint32_t batch = 0; batch < asset_.batches.size(); ++batch) {
+                project_batch(batch);
+            }
+            resolve_all_contacts(substep);
+        }
+    }
+
+    void project_batch(std::uint32_t index) {
+        const Batch& batch = asset_.batches[index];
+        in_blocks(batch.count, constraints_a_block,
+                  [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
+                      const std::uint32_t from = batch.first + first;
+                      project_distances(asset_, coefficients_, index, {from, from + count}, distance_arrays(),
+                                        *world_.kernels);
+                  });
+    }
+
+    void predict() {
+        PredictionClamps clamps[greatest_block_count];
+        const std::uint32_t blocks =
+            in_blocks(object_.count(), particles_a_block,
+                      [&](std::uint32_t block, std::uint32_t first, std::uint32_t count) {
+                          for (int axis = 0; axis < 3; ++axis) {
+                              predict_axis(object_.axis(axis) + first, object_.start_axis(axis) + first,
+                                           count, acceleration_[axis], kept_, world_.rate.motion_limit,
+                                           *world_.kernels, clamps[block]);
+                          }
+                      });
+        for (std::uint32_t block = 0; block < blocks; ++block) {
+            scratch_.counters.position_clamps += clamps[block].positions;
+            scratch_.counters.speed_clamps += clamps[block].speeds;
+        }
+    }
+
+    // Contacts come last in an iteration, so that a substep ends with nothing inside a collider.
+    void resolve_all_contacts(std::uint32_t substep) {
+        if (scratch_.candidates.empty()) {
+            return;
+        }
+        const Bounds swept = swept_bounds();
+        bool touched = false;
+        for (const std::uint32_t index : scratch_.candidates) {
+            const ColliderState& collider = world_.colliders[index].collider;
+            if (!may_touch(collider, object_.origin, swept, asset_.particle_radius)) {
+                continue;
+            }
+            const ContactFrame frame =
+                make_contact_frame(collider, substep, world_.rate.substeps, object_.origin, swept,
+                                   asset_.particle_radius, asset_.friction);
+            in_blocks(object_.count(), particles_a_block,
+                      [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
+                          resolve_contacts(frame, particle_arrays(), first, count, *world_.kernels);
+                      });
+            touched = true;
+        }
+        if (touched) {
+            place_pins(object_, substep, world_.rate.substeps);
+        }
+    }
+
+    // Where the particles have been in this substep, from start to now.
+    Bounds swept_bounds() {
+        Bounds parts[greatest_block_count];
+        const std::uint32_t blocks =
+            in_blocks(object_.count(), particles_a_block,
+                      [&](std::uint32_t block, std::uint32_t first, std::uint32_t count) {
+                          parts[block] = object_.swept_bounds(first, count);
+                      });
+        Bounds bounds = parts[0];
+        for (std::uint32_t block = 1; block < blocks; ++block) {
+            include(bounds, {parts[block].low.x, parts[block].low.y, parts[block].low.z});
+            include(bounds, {parts[block].high.x, parts[block].high.y, parts[block].high.z});
+        }
+        return bounds;
+    }
+
+    // Calls body(block, first, count) for parts of `count` elements of about `grain` each, one after the
+    // other or at the same time, and returns how many parts. Parts begin at whole groups of the kernels.
+    template <typename Body>
+    std::uint32_t in_blocks(std::uint32_t count, std::uint32_t grain, const Body& body) {
+        const std::uint32_t wanted =
+            std::min({count / grain, blocks_a_worker * world_.worker_count, greatest_block_count});
+        if (team_ == nullptr || wanted < 2) {
+            body(0, 0, count);
+            return 1;
+        }
+        struct Context {
+            const Body& body;
+            std::uint32_t count;
+            std::uint32_t size;
+        };
+        const std::uint32_t size = (count / wanted + widest_group) / widest_group * widest_group;
+        const std::uint32_t blocks = (count + size - 1) / size;
+        Context context{body, count, size};
+        const auto run = [](void* argument, std::uint32_t block, std::uint32_t) {
+            const Context& c = *static_cast<Context*>(argument);
+            const std::uint32_t first = block * c.size;
+            c.body(block, first, std::min(c.size, c.count - first));
+        };
+        team_->run({run, &context, blocks});
+        return blocks;
+    }
+
+    static void include(Bounds& bounds, const Coordinates& point) {
+        bounds.low = {std::min(bounds.low.x, point.x), std::min(bounds.low.y, point.y),
+                      std::min(bounds.low.z, point.z)};
+        bounds.high = {std::max(bounds.high.x, point.x), std::max(bounds.high.y, point.y),
+                       std::max(bounds.high.z, point.z)};
+    }
+
+    static void grow(Bounds& bounds, std::int64_t reach) {
+        const auto lower = [reach](std::int64_t value) {
+            return std::clamp(value, -coordinate_limit, coordinate_limit) - reach;
+        };
+        const auto higher = [reach](std::int64_t value) {
+            return std::clamp(value, -coordinate_limit, coordinate_limit) + reach;
+        };
+        bounds.low = {lower(bounds.low.x), lower(bounds.low.y), lower(bounds.low.z)};
+        bounds.high = {higher(bounds.high.x), higher(bounds.high.y), higher(bounds.high.z)};
+    }
+
+    DistanceArrays distance_arrays() {
+        return {object_.axis(0),
+                object_.axis(1),
+                object_.axis(2),
+                object_.start_axis(0),
+                object_.start_axis(1),
+                object_.start_axis(2),
+                object_.multipliers.empty() ? nullptr : object_.multipliers.data()};
+    }
+
+    ParticleArrays particle_arrays() {
+        return {object_.axis(0),       object_.axis(1),       object_.axis(2),
+                object_.start_axis(0), object_.start_axis(1), object_.start_axis(2)};
+    }
+
+    // Some microseconds of work: enough to be worth another thread's while.
+    static constexpr std::uint32_t constraints_a_block = 1024;
+    static constexpr std::uint32_t particles_a_block = 2048;
+    // More would even out the last blocks of a phase better, and cost more taking.
+    static constexpr std::uint32_t blocks_a_worker = 2;
+
+    const lks_world& world_;
+    Object& object_;
+    TickScratch& scratch_;
+    Team* team_;
+    const lks_asset& asset_;
+    const Coefficients& coefficients_;
+    std::uint32_t kept_;
+    std::int64_t acceleration_[3];
+};
+
+} // namespace
+
+void run_object_tick(const lks_world& world, Object& object, TickScratch& scratch, Team* team) {
+    ObjectTick(world, object, scratch, team).run();
+}
+
+} // namespace lks

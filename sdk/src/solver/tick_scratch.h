@@ -1,0 +1,19 @@
+// What one worker needs for itself while it moves objects. No state.
+#pragma once
+
+#include <lockstitch/world.h>
+
+#include "memory/array.h"
+#include "solver/object.h"
+
+namespace lks {
+
+struct TickScratch {
+    Array<std::uint32_t> candidates; // colliders near the object at work
+    lks_world_counters counters{};   // of this tick
+};
+
+// How many blocks a phase of one object is divided into at most.
+inline constexpr std::uint32_t greatest_block_count = 64;
+
+} // namespace lks

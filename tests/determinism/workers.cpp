@@ -1,0 +1,196 @@
+// Any number of workers, the world's own or the game's tasks in whatever order and time: the same bits.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/builders.h"
+#include "support/scene.h"
+
+using namespace support;
+
+namespace {
+
+// What a game's task system might do with a task.
+enum class Temper { at_once, late, threads };
+
+// Runs tasks at once on the caller, only when they are waited for, or each on a thread of its own after a nap
+// of random length.
+class TaskSystem {
+public:
+    explicit TaskSystem(Temper temper) : temper_(temper) {}
+
+    lks_task_system interface() { return {this, enqueue, finish}; }
+    std::uint64_t tasks() const { return tasks_; }
+
+private:
+    struct Pending {
+        lks_task task;
+        void* context;
+        std::thread thread;
+    };
+
+    static void* enqueue(void* user, lks_task task, void* context) {
+        auto* self = static_cast<TaskSystem*>(user);
+        ++self->tasks_;
+        if (self->temper_ == Temper::at_once) {
+            task(context);
+            return nullptr;
+        }
+        auto* pending = new Pending{task, context, {}};
+        if (self->temper_ == Temper::threads) {
+            const auto nap = std::chrono::microseconds(self->random_.between(0, 400));
+            pending->thread = std::thread([=] {
+                std::this_thread::sleep_for(nap);
+                task(context);
+            });
+        }
+        return pending;
+    }
+
+    static void finish(void*, void* handle) {
+        auto* pending = static_cast<Pending*>(handle);
+        if (pending->thread.joinable()) {
+            pending->thread.join();
+        } else {
+            pending->task(pending->context);
+        }
+        delete pending;
+    }
+
+    Temper temper_;
+    Random random_{5};
+    std::uint64_t tasks_ = 0;
+};
+
+// A cloth that is large enough for blocks of its phases, thrown over colliders, and a crowd of small things.
+struct Crowd {
+    Asset sheet;
+    Asset net;
+    Asset chain;
+
+    static Asset make_sheet() {
+        Net shape;
+        shape.side = 72;
+        shape.width = 3;
+        shape.shear = soft(1e-6, 2);
+        return shape.build();
+    }
+    static Asset make_net() {
+        Net shape;
+        shape.side = 12;
+        shape.stretch = soft(1e-6);
+        return shape.build();
+    }
+
+    Crowd() : sheet(make_sheet()), net(make_net()), chain(Chain().build()) {}
+
+    std::vector<std::uint64_t> hashes(const lks_world_def& def, int ticks) const {
+        World world(def);
+        lks_collider_def ball = lks_default_collider_def();
+        ball.transform.position.y = -LKS_FIXED(1);
+        lks_collider_id id{};
+        REQUIRE(lks_world_add_collider(world, &ball, &id) == LKS_OK);
+        lks_collider_def ground = lks_default_collider_def();
+        ground.shape = LKS_SHAPE_PLANE;
+        ground.transform.position.y = -LKS_FIXED(2);
+        REQUIRE(lks_world_add_collider(world, &ground, &id) == LKS_OK);
+        for (int i = 0; i < 9; ++i) {
+            const lks_object_id small = world.add(i % 2 == 0 ? net : chain, at(i - 4.0, 0.5 * i, 0.2 * i));
+            world.pin(small, 0);
+        }
+        const lks_object_id large = world.add(sheet, turned(at(-1.5, 0, -1), 1, 0, 0, 80));
+        world.pin(large, 5);
+        // Some of it faster than it may be: the counters have to agree as well.
+        for (std::uint32_t vertex = 100; vertex < 4000; vertex += 7) {
+            REQUIRE(lks_object_apply_impulse(world, large, vertex, fixed(30, 1, -20)) == LKS_OK);
+        }
+        std::vector<std::uint64_t> found;
+        for (int tick = 0; tick < ticks; ++tick) {
+            world.step();
+            found.push_back(world.hash());
+        }
+        const lks_world_counters counters = world.counters();
+        found.push_back(counters.speed_clamps);
+        found.push_back(counters.position_clamps);
+        return found;
+    }
+};
+
+lks_world_def crowd_def(std::uint32_t workers) {
+    lks_world_def def = world_def(60, 8);
+    def.worker_count = workers;
+    return def;
+}
+
+constexpr int ticks = 12;
+
+} // namespace
+
+TEST_CASE("one to eight workers of the world's own give the same hashes and counters as one") {
+    const Crowd crowd;
+    const std::vector<std::uint64_t> expected = crowd.hashes(crowd_def(1), ticks);
+    CHECK(expected[ticks] + expected[ticks + 1] > 0);
+    for (std::uint32_t workers = 2; workers <= 8; ++workers) {
+        CAPTURE(workers);
+        CHECK(crowd.hashes(crowd_def(workers), ticks) == expected);
+    }
+}
+
+TEST_CASE("a game's tasks give the same hashes however late and in whatever order they run") {
+    const Crowd crowd;
+    const std::vector<std::uint64_t> expected = crowd.hashes(crowd_def(1), ticks);
+    for (const Temper temper : {Temper::at_once, Temper::late, Temper::threads}) {
+        for (const std::uint32_t workers : {2u, 3u, 8u}) {
+            CAPTURE(workers);
+            TaskSystem system(temper);
+            lks_world_def def = crowd_def(workers);
+            def.tasks = system.interface();
+            CHECK(crowd.hashes(def, ticks) == expected);
+            CHECK(system.tasks() == ticks * (workers - 1));
+        }
+    }
+}
+
+TEST_CASE("a small world asks nobody for help") {
+    TaskSystem system(Temper::at_once);
+    lks_world_def def = world_def(60, 8);
+    def.worker_count = 8;
+    def.tasks = system.interface();
+    World world(def);
+    const Asset chain = Chain().build();
+    for (int i = 0; i < 5; ++i) {
+        world.add(chain, at(i, 0, 0));
+    }
+    world.step(20);
+    CHECK(system.tasks() == 0);
+}
+
+TEST_CASE("an image of a world with many workers continues in a world with one") {
+    const Crowd crowd;
+    World many(crowd_def(5));
+    World one(crowd_def(1));
+    for (World* world : {&many, &one}) {
+        world->pin(world->add(crowd.sheet, at(0, 0, 0)), 0);
+    }
+    many.step(10);
+    const auto image = many.save();
+    REQUIRE(lks_world_load(one, image.data(), image.size()) == LKS_OK);
+    many.step(10);
+    one.step(10);
+    CHECK(many.hash() == one.hash());
+}
+
+TEST_CASE("worlds with workers come and go") {
+    const Asset chain = Chain().build();
+    for (std::uint32_t i = 0; i < 40; ++i) {
+        World world(crowd_def(1 + i % 8));
+        world.add(chain, at(0, 0, 0));
+        world.step(2);
+    }
+}
