@@ -21,7 +21,7 @@ that link the installed library, and the checks of the sources.
 TEXT
 }
 
-sets=(build render test)
+sets=(build render bench test)
 portability=OFF
 while [ $# -gt 0 ]; do
     case "$1" in

@@ -1,26 +1,29 @@
 #include "float_runs.h"
 
+#include <algorithm>
+
 #include "float_runs_lanes.h"
 
 namespace lks_bench {
 
-FloatRuns make_float_runs(const lks_asset& asset, std::uint32_t pinned_vertex_a,
-                          std::uint32_t pinned_vertex_b) {
+FloatRuns make_float_runs(const lks_asset& asset, const std::vector<std::uint32_t>& pinned_vertices) {
     constexpr float metre = 1.0f / 72057594037927936.0f; // 2^-56
     const std::size_t padding = lks::widest_group;
     FloatRuns cloth;
     for (std::uint32_t particle = 0; particle < asset.vertex_count(); ++particle) {
         const lks::Coordinates& p = asset.rest_positions[particle];
-        // A little out of place, so that there is something to correct.
-        const float jitter = 1e-3f * static_cast<float>(particle * 2654435761u >> 24) / 256.0f;
-        cloth.x.push_back(static_cast<float>(p.x) * metre + jitter);
-        cloth.y.push_back(static_cast<float>(p.y) * metre - jitter);
-        cloth.z.push_back(static_cast<float>(p.z) * metre + jitter);
+        cloth.x.push_back(static_cast<float>(p.x) * metre);
+        cloth.y.push_back(static_cast<float>(p.y) * metre);
+        cloth.z.push_back(static_cast<float>(p.z) * metre);
+        cloth.vertices.push_back(asset.particle_to_vertex[particle]);
     }
     const auto pinned = [&](std::uint32_t particle) {
         const std::uint32_t vertex = asset.particle_to_vertex[particle];
-        return vertex == pinned_vertex_a || vertex == pinned_vertex_b;
+        return std::find(pinned_vertices.begin(), pinned_vertices.end(), vertex) != pinned_vertices.end();
     };
+    for (std::uint32_t particle = 0; particle < asset.vertex_count(); ++particle) {
+        cloth.moving.push_back(pinned(particle) ? 0.0f : 1.0f);
+    }
     for (std::uint32_t i = 0; i < asset.constraint_count(); ++i) {
         const lks::Constraint ends = asset.constraints[i];
         const bool a = pinned(ends.a);
@@ -45,6 +48,9 @@ FloatRuns make_float_runs(const lks_asset& asset, std::uint32_t pinned_vertex_a,
          {&cloth.x, &cloth.y, &cloth.z, &cloth.rests, &cloth.shares_a, &cloth.shares_b}) {
         values->resize(values->size() + padding, 1.0f);
     }
+    cloth.start_x = cloth.x;
+    cloth.start_y = cloth.y;
+    cloth.start_z = cloth.z;
     return cloth;
 }
 
@@ -62,7 +68,9 @@ void project_double(const FloatRuns& cloth, std::vector<double>& x, std::vector<
     }
 }
 
-void project_float_runs_scalar(FloatRuns& cloth) {
+namespace {
+
+void project_scalar(FloatRuns& cloth) {
     for (const FloatBatch& batch : cloth.batches) {
         for (const lks::Run& run : batch.runs) {
             for (std::uint32_t i = 0; i < run.count; ++i) {
@@ -74,5 +82,9 @@ void project_float_runs_scalar(FloatRuns& cloth) {
         }
     }
 }
+
+} // namespace
+
+const FloatKernel float_runs_scalar = {"float32 runs, scalar", project_scalar, predict_all};
 
 } // namespace lks_bench

@@ -17,20 +17,28 @@ struct FloatBatch {
 
 struct FloatRuns {
     std::vector<float> x, y, z; // by particle, in the solver's order, with room behind
+    std::vector<float> start_x, start_y, start_z;
+    std::vector<float> moving; // 1, or 0 for what is pinned
+    std::vector<std::uint32_t> vertices;
     std::vector<lks::Constraint> constraints;
     std::vector<float> rests;
     std::vector<float> shares_a, shares_b;
     std::vector<FloatBatch> batches;
 };
 
-// Two corners pinned, the others of one mass.
-FloatRuns make_float_runs(const lks_asset& asset, std::uint32_t pinned_vertex_a,
-                          std::uint32_t pinned_vertex_b);
+FloatRuns make_float_runs(const lks_asset& asset, const std::vector<std::uint32_t>& pinned);
 
-// One pass over all constraints, no compliance, L/len clamped to 2.
-void project_float_runs_scalar(FloatRuns& cloth);
-void project_float_runs_avx2(FloatRuns& cloth);
-void project_float_runs_avx512(FloatRuns& cloth);
+// `project` is one pass over all constraints, no compliance, L/len clamped to 2; `predict` is x += v + g·h²,
+// what a substep begins with, `fall` being g·h² on y.
+struct FloatKernel {
+    const char* name;
+    void (*project)(FloatRuns& cloth);
+    void (*predict)(FloatRuns& cloth, float fall);
+};
+
+extern const FloatKernel float_runs_scalar;
+extern const FloatKernel float_runs_avx2;   // on x86-64
+extern const FloatKernel float_runs_avx512; // on x86-64
 
 // The same cloth in double precision, one constraint after the other: what the others must come to.
 void project_double(const FloatRuns& cloth, std::vector<double>& x, std::vector<double>& y,

@@ -27,9 +27,7 @@ struct Avx2 {
 
 } // namespace
 
-void project_float_runs_avx2(FloatRuns& cloth) {
-    project_all<Avx2>(cloth);
-}
+const FloatKernel float_runs_avx2 = {"float32 runs, AVX2", project_all<Avx2>, predict_all};
 
 } // namespace lks_bench
 #endif

@@ -30,9 +30,7 @@ struct Avx512 {
 
 } // namespace
 
-void project_float_runs_avx512(FloatRuns& cloth) {
-    project_all<Avx512>(cloth);
-}
+const FloatKernel float_runs_avx512 = {"float32 runs, AVX-512", project_all<Avx512>, predict_all};
 
 } // namespace lks_bench
 #endif

@@ -91,5 +91,21 @@ inline void project_all(FloatRuns& cloth) {
     }
 }
 
+// For the compiler to make vectors of.
+inline void predict_axis(float* x, float* start, const float* moving, std::size_t count, float fall) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float before = x[i];
+        x[i] = before + moving[i] * (before - start[i] + fall);
+        start[i] = before;
+    }
+}
+
+inline void predict_all(FloatRuns& cloth, float fall) {
+    const std::size_t count = cloth.moving.size();
+    predict_axis(cloth.x.data(), cloth.start_x.data(), cloth.moving.data(), count, 0);
+    predict_axis(cloth.y.data(), cloth.start_y.data(), cloth.moving.data(), count, fall);
+    predict_axis(cloth.z.data(), cloth.start_z.data(), cloth.moving.data(), count, 0);
+}
+
 } // namespace
 } // namespace lks_bench

@@ -5,26 +5,28 @@
 
 namespace lks_bench {
 
-FloatCloth make_float_cloth(const lks_asset& asset, bool by_colour) {
+FloatCloth make_float_cloth(const lks_asset& asset, const std::vector<std::uint32_t>& pinned,
+                            EdgeOrder order) {
     constexpr float metre = 1.0f / 72057594037927936.0f; // 2^-56
     FloatCloth cloth;
     cloth.particles.resize(asset.vertex_count());
     for (std::uint32_t particle = 0; particle < asset.vertex_count(); ++particle) {
         const lks::Coordinates& p = asset.rest_positions[particle];
-        // A little out of place, so that there is something to correct.
-        const auto jitter = 1e-3f * static_cast<float>(particle * 2654435761u >> 24) / 256.0f;
-        cloth.particles[asset.particle_to_vertex[particle]] = {
-            static_cast<float>(p.x) * metre + jitter, static_cast<float>(p.y) * metre - jitter,
-            static_cast<float>(p.z) * metre + jitter, 1000.0f};
+        cloth.particles[asset.particle_to_vertex[particle]] = {static_cast<float>(p.x) * metre,
+                                                               static_cast<float>(p.y) * metre,
+                                                               static_cast<float>(p.z) * metre, 1000.0f};
     }
-    cloth.particles.front().inverse_mass = 0;
+    for (const std::uint32_t vertex : pinned) {
+        cloth.particles[vertex].inverse_mass = 0;
+    }
+    cloth.starts = cloth.particles;
     for (std::uint32_t i = 0; i < asset.constraint_count(); ++i) {
         const std::uint32_t a = asset.particle_to_vertex[asset.constraints[i].a];
         const std::uint32_t b = asset.particle_to_vertex[asset.constraints[i].b];
         cloth.edges.push_back(
             {std::min(a, b), std::max(a, b), static_cast<float>(asset.rest_lengths[i]) * metre});
     }
-    if (!by_colour) {
+    if (order == EdgeOrder::by_index) {
         std::stable_sort(cloth.edges.begin(), cloth.edges.end(),
                          [](const FloatEdge& l, const FloatEdge& r) { return l.a < r.a; });
     }
@@ -50,6 +52,20 @@ void project_float(FloatCloth& cloth) {
         b.x -= x * factor * b.inverse_mass;
         b.y -= y * factor * b.inverse_mass;
         b.z -= z * factor * b.inverse_mass;
+    }
+}
+
+void predict_float(FloatCloth& cloth, float fall) {
+    for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
+        FloatParticle& now = cloth.particles[i];
+        FloatParticle& start = cloth.starts[i];
+        const FloatParticle before = now;
+        if (now.inverse_mass > 0) {
+            now.x += now.x - start.x;
+            now.y += now.y - start.y + fall;
+            now.z += now.z - start.z;
+        }
+        start = before;
     }
 }
 

@@ -19,14 +19,20 @@ struct FloatEdge {
 };
 
 struct FloatCloth {
-    std::vector<FloatParticle> particles;
+    std::vector<FloatParticle> particles; // by vertex
+    std::vector<FloatParticle> starts;    // where they were at the start of the substep
     std::vector<FloatEdge> edges;
 };
 
+enum class EdgeOrder { by_colour, by_index };
+
 // The asset's particles at rest and its edges: in the solver's order by colours, or by their lower vertex.
-FloatCloth make_float_cloth(const lks_asset& asset, bool by_colour);
+FloatCloth make_float_cloth(const lks_asset& asset, const std::vector<std::uint32_t>& pinned,
+                            EdgeOrder order);
 
 // One pass over all edges, no compliance.
 void project_float(FloatCloth& cloth);
+// x += v + g·h²: what a substep begins with. `fall` is g·h² on y.
+void predict_float(FloatCloth& cloth, float fall);
 
 } // namespace lks_bench

@@ -3,45 +3,16 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "mesh_shape.h"
+
 namespace lks_bench {
 namespace {
 
 void demand(lks_result result, const char* what, const char* message) {
     if (result != LKS_OK) {
-        std::fprintf(stderr, "lockstitch-bench: %s: %s\n", what, message);
+        std::fprintf(stderr, "lockstitch: the benchmark can't make %s: %s\n", what, message);
         std::exit(1);
     }
-}
-
-lks_asset* make_asset(const Workload& workload) {
-    const lks_distance_material material{workload.compliance, workload.damping, 1, 0};
-    lks_error error{};
-    lks_asset* asset = nullptr;
-    // Equal masses, as in most cloth.
-    const std::vector<double> masses(std::size_t{workload.side} * (workload.rope ? 1 : workload.side), 0.001);
-    if (workload.rope) {
-        lks_rope_def def = lks_default_rope_def();
-        def.length = 2;
-        def.segments = workload.side - 1;
-        def.linear_density = 0;
-        def.vertex_masses = masses.data();
-        def.stretch = material;
-        def.bend = {0, 0, 0, 0};
-        def.error = &error;
-        demand(lks_asset_create_rope(&def, &asset), "a rope", error.message);
-    } else {
-        lks_cloth_def def = lks_default_cloth_def();
-        def.columns = workload.side;
-        def.rows = workload.side;
-        def.area_density = 0;
-        def.vertex_masses = masses.data();
-        def.stretch = material;
-        def.shear = material;
-        def.bend = material;
-        def.error = &error;
-        demand(lks_asset_create_cloth(&def, &asset), "a cloth", error.message);
-    }
-    return asset;
 }
 
 void add_colliders(lks_world* world) {
@@ -57,62 +28,156 @@ void add_colliders(lks_world* world) {
 } // namespace
 
 const std::vector<Workload>& workloads() {
-    static const std::vector<Workload> all = [] {
-        std::vector<Workload> list;
-        const auto add = [&](Workload workload) { list.push_back(std::move(workload)); };
-        add({"cloth_64", "64 x 64 vertices, 20 x 1", 1, false, 64, 0, 0, false, 20, 1});
-        add({"cloth_64_1x20", "64 x 64 vertices, 1 x 20", 1, false, 64, 0, 0, false, 1, 20});
-        add({"cloth_64_5x4", "64 x 64 vertices, 5 x 4", 1, false, 64, 0, 0, false, 5, 4});
-        add({"cloth_64_soft", "64 x 64 vertices, 1e-5 m/N", 1, false, 64, 1e-5, 0, false, 20, 1});
-        add({"cloth_64_damped", "64 x 64 vertices, 1e-5 m/N, 10 N s/m", 1, false, 64, 1e-5, 10, false, 20,
-             1});
-        add({"cloth_64_colliders", "64 x 64 vertices over two spheres", 1, false, 64, 0, 0, true, 20, 1});
-        add({"cloth_50", "50 x 50 vertices, no multiple of four", 1, false, 50, 0, 0, false, 20, 1});
-        add({"cloth_256", "256 x 256 vertices, 20 x 1", 1, false, 256, 0, 0, false, 20, 1});
-        add({"ropes_200", "200 ropes of 100 particles", 200, true, 100, 0, 0, false, 20, 1});
-        add({"ropes_1000", "1,000 ropes of 20 particles", 1000, true, 20, 0, 0, false, 20, 1});
-        return list;
-    }();
+    static const std::vector<Workload> all = {
+        {.name = "cloth_64", .title = "64 × 64 vertices, 20 × 1"},
+        {.name = "cloth_64_1x20", .title = "64 × 64 vertices, 1 × 20", .substeps = 1, .iterations = 20},
+        {.name = "cloth_64_5x4", .title = "64 × 64 vertices, 5 × 4", .substeps = 5, .iterations = 4},
+        {.name = "cloth_64_soft", .title = "64 × 64 vertices, 1e-5 m/N", .compliance = 1e-5},
+        {.name = "cloth_64_damped",
+         .title = "64 × 64 vertices, 1e-5 m/N, 10 N·s/m",
+         .compliance = 1e-5,
+         .damping = 10},
+        {.name = "cloth_64_colliders", .title = "64 × 64 vertices over two spheres", .colliders = true},
+        {.name = "cloth_50", .title = "50 × 50 vertices, no multiple of four", .side = 50},
+        {.name = "cloth_256", .title = "256 × 256 vertices", .side = 256},
+        {.name = "mesh_10k", .title = "irregular mesh of 10,082 triangles", .shape = Shape::mesh, .side = 72},
+        {.name = "mesh_10k_colliders",
+         .title = "irregular mesh of 10,082 triangles over two spheres",
+         .shape = Shape::mesh,
+         .side = 72,
+         .colliders = true},
+        {.name = "ropes_200",
+         .title = "200 ropes of 100 particles",
+         .shape = Shape::rope,
+         .objects = 200,
+         .side = 100},
+        {.name = "ropes_200_colliders",
+         .title = "200 ropes of 100 particles over two spheres",
+         .shape = Shape::rope,
+         .objects = 200,
+         .side = 100,
+         .colliders = true},
+        {.name = "ropes_1000",
+         .title = "1,000 ropes of 20 particles",
+         .shape = Shape::rope,
+         .objects = 1000,
+         .side = 20},
+    };
     return all;
 }
 
-BenchWorld::BenchWorld(const Workload& workload, lks_simd simd, std::uint32_t workers)
-    : asset_(make_asset(workload)) {
+const std::vector<Workload>& growth_workloads() {
+    static const std::vector<Workload> all = {
+        {.name = "growth_1k", .title = "14 × 14 vertices", .side = 14, .warm_ticks = 5},
+        {.name = "growth_3k", .title = "24 × 24 vertices", .side = 24, .warm_ticks = 5},
+        {.name = "growth_10k", .title = "42 × 42 vertices", .side = 42, .warm_ticks = 5},
+        {.name = "growth_30k", .title = "72 × 72 vertices", .side = 72, .warm_ticks = 5},
+        {.name = "growth_100k", .title = "130 × 130 vertices", .side = 130, .warm_ticks = 5},
+        {.name = "growth_300k", .title = "224 × 224 vertices", .side = 224, .warm_ticks = 5},
+        {.name = "growth_1m", .title = "410 × 410 vertices", .side = 410, .warm_ticks = 5},
+    };
+    return all;
+}
+
+const Workload* find_workload(const std::string& name) {
+    for (const std::vector<Workload>* list : {&workloads(), &growth_workloads()}) {
+        for (const Workload& workload : *list) {
+            if (workload.name == name) {
+                return &workload;
+            }
+        }
+    }
+    return nullptr;
+}
+
+WorkloadAsset::WorkloadAsset(const Workload& workload, const lks_allocator& allocator) {
+    const lks_distance_material material{workload.compliance, workload.damping, 1, 0};
+    lks_error error{};
+    const std::uint32_t side = workload.side;
+    // Equal masses, as in most cloth.
+    const std::vector<double> masses(std::size_t{side} * (workload.shape == Shape::rope ? 1 : side), 0.001);
+    if (workload.shape == Shape::rope) {
+        lks_rope_def def = lks_default_rope_def();
+        def.length = 2;
+        def.segments = side - 1;
+        def.linear_density = 0;
+        def.vertex_masses = masses.data();
+        def.stretch = material;
+        def.bend = {0, 0, 0, 0};
+        def.allocator = allocator;
+        def.error = &error;
+        demand(lks_asset_create_rope(&def, &asset_), "a rope", error.message);
+        pinned_ = {0};
+        return;
+    }
+    lks_cloth_def def = lks_default_cloth_def();
+    def.columns = side;
+    def.rows = side;
+    pinned_ = {0, side - 1};
+    MeshShape mesh;
+    if (workload.shape == Shape::mesh) {
+        mesh = make_mesh(side);
+        def.columns = 0;
+        def.rows = 0;
+        def.width = 0;
+        def.height = 0;
+        def.vertices = mesh.vertices.data();
+        def.vertex_count = static_cast<std::uint32_t>(mesh.vertices.size() / 3);
+        def.triangles = mesh.triangles.data();
+        def.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
+        pinned_ = {mesh.corners[0], mesh.corners[1]};
+    }
+    def.area_density = 0;
+    def.vertex_masses = masses.data();
+    def.stretch = material;
+    def.shear = workload.shape == Shape::mesh ? lks_distance_material{} : material;
+    def.bend = material;
+    def.allocator = allocator;
+    def.error = &error;
+    demand(lks_asset_create_cloth(&def, &asset_), "a cloth", error.message);
+}
+
+WorkloadAsset::~WorkloadAsset() {
+    lks_asset_release(asset_);
+}
+
+BenchWorld::BenchWorld(const Workload& workload, lks_simd simd, std::uint32_t workers,
+                       const lks_allocator& allocator)
+    : asset_(workload, allocator) {
     lks_error error{};
     lks_world_def def = lks_default_world_def();
     def.substeps = workload.substeps;
     def.iterations = workload.iterations;
     def.simd = static_cast<std::uint32_t>(simd);
     def.worker_count = workers;
+    def.allocator = allocator;
     def.error = &error;
     demand(lks_world_create(&def, &world_), "a world", error.message);
     for (std::uint32_t i = 0; i < workload.objects; ++i) {
         lks_object_def object_def = lks_default_object_def();
-        object_def.asset = asset_;
+        object_def.asset = asset_.get();
         object_def.transform.position.x = static_cast<lks_fixed>(i) * LKS_FIXED_RATIO(1, 10);
         lks_object_id object{};
         demand(lks_world_add_object(world_, &object_def, &object), "an object",
                lks_world_last_error(world_)->message);
-        lks_object_pin(world_, object, 0);
-        if (!workload.rope) {
-            lks_object_pin(world_, object, workload.side - 1);
+        for (const std::uint32_t vertex : asset_.pinned()) {
+            demand(lks_object_pin(world_, object, vertex), "a pin", lks_world_last_error(world_)->message);
         }
     }
     if (workload.colliders) {
         add_colliders(world_);
     }
-    for (int tick = 0; tick < 20; ++tick) {
+    for (std::uint32_t tick = 0; tick < workload.warm_ticks; ++tick) {
         lks_world_step(world_);
     }
 }
 
 BenchWorld::~BenchWorld() {
     lks_world_destroy(world_);
-    lks_asset_release(asset_);
 }
 
 std::uint64_t BenchWorld::constraints() const {
-    return std::uint64_t{lks_asset_constraint_count(asset_)} * lks_world_object_count(world_);
+    return std::uint64_t{lks_asset_constraint_count(asset_.get())} * lks_world_object_count(world_);
 }
 
 } // namespace lks_bench

@@ -4,40 +4,65 @@
 #include <lockstitch/lockstitch.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace lks_bench {
 
+enum class Shape { cloth, mesh, rope };
+
 struct Workload {
     std::string name;
     std::string title;
+    Shape shape = Shape::cloth;
     std::uint32_t objects = 1;
-    bool rope = false;
-    std::uint32_t side = 64; // vertices along a cloth's edge, or particles of a rope
+    std::uint32_t side = 64; // vertices along a cloth's or a mesh's edge, or particles of a rope
     double compliance = 0;   // m/N
     double damping = 0;      // N·s/m
     bool colliders = false;
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
+    std::uint32_t warm_ticks = 20; // before anything is measured, so that it hangs and swings
 };
 
+// Cloths from 1,000 to 1,000,000 constraints, for growth, come after those that are measured by default.
 const std::vector<Workload>& workloads();
+const std::vector<Workload>& growth_workloads();
+// Of both lists; null: there is none of this name.
+const Workload* find_workload(const std::string& name);
 
-// A world with the workload in it, a third of a second old. Exits with a sentence where the library refuses.
+// What a workload's objects are made of. Exits with a sentence where the library refuses.
+class WorkloadAsset {
+public:
+    explicit WorkloadAsset(const Workload& workload, const lks_allocator& allocator = {});
+    ~WorkloadAsset();
+    WorkloadAsset(const WorkloadAsset&) = delete;
+    WorkloadAsset& operator=(const WorkloadAsset&) = delete;
+
+    lks_asset* get() const { return asset_; }
+    const std::vector<std::uint32_t>& pinned() const { return pinned_; } // vertices
+
+private:
+    lks_asset* asset_ = nullptr;
+    std::vector<std::uint32_t> pinned_;
+};
+
 class BenchWorld {
 public:
-    BenchWorld(const Workload& workload, lks_simd simd, std::uint32_t workers = 1);
+    BenchWorld(const Workload& workload, lks_simd simd, std::uint32_t workers = 1,
+               const lks_allocator& allocator = {});
     ~BenchWorld();
     BenchWorld(const BenchWorld&) = delete;
     BenchWorld& operator=(const BenchWorld&) = delete;
 
     lks_world* world() const { return world_; }
+    const lks_asset& asset() const { return *asset_.get(); }
     std::uint64_t constraints() const; // of all objects
 
 private:
+    WorkloadAsset asset_;
     lks_world* world_ = nullptr;
-    lks_asset* asset_ = nullptr;
 };
 
 } // namespace lks_bench

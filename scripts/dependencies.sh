@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing of the packages that the named sets need; asks nothing, and does nothing when all
 # is there.
-# usage: scripts/dependencies.sh SET...    sets: build render test portability
+# usage: scripts/dependencies.sh SET...    sets: build render bench test portability
 set -euo pipefail
 
 packages_of() {
@@ -12,6 +12,8 @@ packages_of() {
             echo libglm-dev libstb-dev zlib1g-dev
             echo libegl-dev libgl-dev libegl1 libgl1-mesa-dri libosmesa6-dev
             ;;
+        # Bullet as a peer, gnuplot for the report's plots.
+        bench) echo libbenchmark-dev libbullet-dev gnuplot-nox valgrind ;;
         test) echo doctest-dev clang clang-format clang-tidy python3 binutils ;;
         # mingw's -posix compiler: the other one has no std::thread.
         portability)
@@ -19,7 +21,8 @@ packages_of() {
             echo qemu-user-static wine wine64 emscripten
             ;;
         *)
-            echo "The package set '$1' does not exist; there are build, render, test and portability." >&2
+            echo "The package set '$1' does not exist; there are build, render, bench, test," \
+                "portability." >&2
             return 2
             ;;
     esac

@@ -48,10 +48,21 @@ struct GoldenOptions {
     MachineOptions machine;
 };
 
+struct BenchOptions {
+    std::vector<std::string> parts;
+    std::uint32_t rounds = 21;
+    bool list = false;
+    bool json = false;
+    std::string report;
+    std::string once;
+    std::string program; // this one, to be run under valgrind
+};
+
 int list(const ListOptions& options);
 int run(const RunOptions& options);
 int render(const RenderOptions& options);
 int check(const GoldenOptions& options);
 int bless(const GoldenOptions& options);
+int bench(const BenchOptions& options);
 
 } // namespace lks_program

@@ -34,6 +34,7 @@ public:
         add_list();
         add_run();
         add_render();
+        add_bench();
         add_golden("check", "Compare scenes with their golden states and images", check_options_, check,
                    "Examples:\n"
                    "  lockstitch check\n"
@@ -47,6 +48,7 @@ public:
     }
 
     int run(int argc, char** argv) {
+        bench_options_.program = argv[0];
         try {
             app_.parse(argc, argv);
         } catch (const CLI::CallForHelp& help) {
@@ -115,6 +117,28 @@ private:
         command->callback([this] { code_ = render(render_options_); });
     }
 
+    void add_bench() {
+        CLI::App* command =
+            app_.add_subcommand("bench", "Measure what projections, ticks and snapshots cost");
+        command->add_option("PART", bench_options_.parts, "Workloads and sections; see --list");
+        command
+            ->add_option("--rounds", bench_options_.rounds, "How often each is measured; medians are shown")
+            ->check(CLI::Range(1u, 100000u))
+            ->capture_default_str();
+        command->add_option("--report", bench_options_.report,
+                            "Everything, and report.md, results.json, results.csv and plots in this folder");
+        command->add_flag("--list", bench_options_.list, "What can be measured");
+        command->add_flag("--json", bench_options_.json, "As JSON");
+        command->add_option("--once", bench_options_.once, "Run one variant of one workload once")->group("");
+        command->footer("Variants take turns within rounds; × is the ratio to the first one, the median of\n"
+                        "the ratios within rounds. All of ours give the same bits.\n\n"
+                        "Examples:\n"
+                        "  lockstitch bench cloth_64\n"
+                        "  lockstitch bench cloth_64 cloth_256 snapshots --rounds 101 --json\n"
+                        "  lockstitch bench --report out/bench");
+        command->callback([this] { code_ = bench(bench_options_); });
+    }
+
     void add_golden(const char* name, const char* description, GoldenOptions& options,
                     int (*action)(const GoldenOptions&), const char* footer) {
         CLI::App* command = app_.add_subcommand(name, description);
@@ -177,6 +201,7 @@ private:
     ListOptions list_options_;
     RunOptions run_options_;
     RenderOptions render_options_;
+    BenchOptions bench_options_;
     GoldenOptions check_options_;
     GoldenOptions bless_options_;
     int code_ = 0;

@@ -1,32 +1,69 @@
-"""The benchmark runs, and says of each workload what it is and of each instruction set what it costs.
+"""The benchmark runs, and says of each workload what it is and of each variant what it costs.
 
-usage: bench.py LOCKSTITCH-BENCH
+usage: bench.py LOCKSTITCH [LOCKSTITCH-BENCH]
 """
 import json
+import pathlib
+import re
+import shutil
 import subprocess
 import sys
+import tempfile
 
 program = sys.argv[1]
 
 
-def lines(*arguments):
-    done = subprocess.run([program, *arguments], check=True, capture_output=True, text=True)
-    return done.stdout.splitlines()
+def run(*arguments, expected=0):
+    done = subprocess.run(arguments, capture_output=True, text=True)
+    if done.returncode != expected:
+        sys.exit(f"{arguments} ended with {done.returncode}: {done.stderr}")
+    return done
 
 
-counts = {"cloth_64": "23938 constraints", "cloth_50": "14502 constraints", "ropes_200": "19800 constraints"}
-for name, count in counts.items():
-    printed = lines("--rounds", "1", name)
-    if count not in printed[0]:
-        sys.exit(f"{name} has not {count}: {printed[0]}")
-results = [json.loads(line) for line in lines("--rounds", "1", "--json", "cloth_50")]
-measured = {(result["measured"], result["variant"]) for result in results}
-for wanted in ("projection", "scalar"), ("tick", "scalar"), ("projection", "float32 plain, by index"):
-    if wanted not in measured:
-        sys.exit(f"{wanted} was not measured.")
-if not all(result["ns"] > 0 and result["ratio"] > 0 for result in results):
-    sys.exit("Something took no time.")
-refused = subprocess.run([program, "clot_64"], capture_output=True, text=True)
-if refused.returncode != 2 or "'clot_64'" not in refused.stderr:
+def measure(*parts):
+    return json.loads(run(program, "bench", *parts, "--rounds", "1", "--json").stdout)
+
+
+def value(results, measured, variant):
+    found = [r["value"] for r in results if (r["measured"], r["variant"]) == (measured, variant)]
+    if not found or found[0] <= 0:
+        sys.exit(f"{measured} of '{variant}' was not measured: {found}")
+    return found[0]
+
+
+constraints = {"cloth_64": 23938, "cloth_50": 14502, "mesh_10k": 29642, "ropes_200": 19800}
+for name, count in constraints.items():
+    if value(measure(name), "constraints", "") != count:
+        sys.exit(f"{name} has not {count} constraints.")
+cloth = measure("cloth_50")
+for measured in "projection", "tick":
+    for variant in "scalar", "float32 runs, scalar", "float32 plain, by index":
+        value(cloth, measured, variant)
+value(cloth, "in runs", "")
+value(measure("overhead"), "tick", "empty world")
+
+refused = run(program, "bench", "clot_64", expected=2)
+if "'clot_64'" not in refused.stderr:
     sys.exit("An unknown workload was not refused by name.")
-print(f"{len(results)} results of cloth_50")
+refused = run(program, "bench", "cloth_50", "--rounds", "1", "--report", "/dev/null/report", expected=1)
+if "/dev/null/report" not in refused.stderr:
+    sys.exit("A folder that can't be was not refused by name.")
+
+with tempfile.TemporaryDirectory() as folder:
+    drawn = shutil.which("gnuplot") is not None
+    run(program, "bench", "cloth_50", "--rounds", "1", "--report", folder, expected=0 if drawn else 1)
+    made = {path.name for path in pathlib.Path(folder).iterdir()}
+    plots = {"cost-against-simd.svg", "ours-against-peers.svg"} if drawn else set()
+    if made != {"report.md", "results.json", "results.csv"} | plots:
+        sys.exit(f"The report consists of {sorted(made)}.")
+    text = pathlib.Path(folder, "report.md").read_text()
+    if not re.search(r"\| cloth_50 \| .*14502 \|", text) or "float32 plain, coloured" not in text:
+        sys.exit("The report doesn't tell of cloth_50.")
+    json.loads(pathlib.Path(folder, "results.json").read_text())
+
+if len(sys.argv) > 2:
+    lines = run(sys.argv[2], "--benchmark_filter=^cloth_50/tick/scalar$", "--benchmark_min_time=0.01").stdout
+    if "cloth_50/tick/scalar" not in lines or "s/projection=" not in lines:
+        sys.exit(f"lockstitch-bench said: {lines}")
+    run(sys.argv[2], "--benchmark_filter=no_such_thing", expected=2)
+print("measured, refused and reported")

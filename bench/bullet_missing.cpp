@@ -1,0 +1,13 @@
+#include "bullet_peer.h"
+
+namespace lks_bench {
+
+bool has_bullet() {
+    return false;
+}
+
+std::unique_ptr<Variant> make_bullet_peer(const Workload&) {
+    return nullptr;
+}
+
+} // namespace lks_bench

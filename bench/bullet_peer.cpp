@@ -1,0 +1,94 @@
+#include "bullet_peer.h"
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include "plain_float.h"
+
+namespace lks_bench {
+namespace {
+
+class Bullet final : public Variant {
+public:
+    explicit Bullet(const Workload& workload)
+        : substeps_(workload.substeps), iterations_(workload.iterations) {
+        info_.m_gravity = btVector3(0, btScalar(-9.81), 0);
+        info_.air_density = 0;
+        info_.m_sparsesdf.Initialize();
+        const WorkloadAsset asset(workload);
+        const FloatCloth shape = make_float_cloth(*asset.get(), asset.pinned(), EdgeOrder::by_colour);
+        for (std::uint32_t i = 0; i < workload.objects; ++i) {
+            bodies_.push_back(make_body(shape));
+        }
+        for (std::uint32_t i = 0; i < workload.warm_ticks; ++i) {
+            tick();
+        }
+    }
+
+    void project() override {
+        for (std::uint32_t pass = 0; pass < substeps_ * iterations_; ++pass) {
+            for (const std::unique_ptr<btSoftBody>& body : bodies_) {
+                btSoftBody::PSolve_Links(body.get(), 1, 0);
+            }
+        }
+    }
+    void tick() override {
+        for (const std::unique_ptr<btSoftBody>& body : bodies_) {
+            for (std::uint32_t substep = 0; substep < substeps_; ++substep) {
+                body->predictMotion(btScalar(1) / btScalar(60 * substeps_));
+                body->solveConstraints();
+                body->integrateMotion();
+            }
+        }
+    }
+    std::vector<Point> points() const override {
+        std::vector<Point> found;
+        const btSoftBody& body = *bodies_.front();
+        for (int i = 0; i < body.m_nodes.size(); ++i) {
+            const btVector3& x = body.m_nodes[i].m_x;
+            found.push_back({x.x(), x.y(), x.z()});
+        }
+        return found;
+    }
+
+private:
+    std::unique_ptr<btSoftBody> make_body(const FloatCloth& shape) {
+        std::vector<btVector3> places;
+        std::vector<btScalar> masses;
+        for (const FloatParticle& particle : shape.particles) {
+            places.emplace_back(particle.x, particle.y, particle.z);
+            masses.push_back(particle.inverse_mass > 0 ? 1 / particle.inverse_mass : 0);
+        }
+        auto body = std::make_unique<btSoftBody>(&info_, static_cast<int>(places.size()), places.data(),
+                                                 masses.data());
+        for (const FloatEdge& edge : shape.edges) {
+            body->appendLink(static_cast<int>(edge.a), static_cast<int>(edge.b));
+        }
+        for (int i = 0; i < body->m_links.size(); ++i) {
+            body->m_links[i].m_rl = shape.edges[static_cast<std::size_t>(i)].rest;
+        }
+        body->updateLinkConstants();
+        for (int i = 0; i < body->m_links.size(); ++i) {
+            body->m_links[i].m_c1 = body->m_links[i].m_rl * body->m_links[i].m_rl;
+        }
+        body->m_cfg.kDP = 0; // no damping, as ours
+        body->m_cfg.piterations = static_cast<int>(iterations_);
+        return body;
+    }
+
+    std::uint32_t substeps_;
+    std::uint32_t iterations_;
+    btSoftBodyWorldInfo info_;
+    std::vector<std::unique_ptr<btSoftBody>> bodies_;
+};
+
+} // namespace
+
+bool has_bullet() {
+    return true;
+}
+
+std::unique_ptr<Variant> make_bullet_peer(const Workload& workload) {
+    return std::make_unique<Bullet>(workload);
+}
+
+} // namespace lks_bench

@@ -1,0 +1,178 @@
+#include "float_peers.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "float_runs.h"
+#include "plain_float.h"
+
+namespace lks_bench {
+namespace {
+
+constexpr const char* coloured_name = "float32 plain, coloured";
+constexpr const char* indexed_name = "float32 plain, by index";
+
+std::vector<const FloatKernel*> float_kernels() {
+    std::vector<const FloatKernel*> found = {&float_runs_scalar};
+#if defined(LKS_BENCH_X86)
+    if (lks_simd_is_available(LKS_SIMD_AVX2) != 0) {
+        found.push_back(&float_runs_avx2);
+    }
+    if (lks_simd_is_available(LKS_SIMD_AVX512) != 0) {
+        found.push_back(&float_runs_avx512);
+    }
+#endif
+    return found;
+}
+
+// g·h² in metres.
+float fall_of(const Workload& workload) {
+    const double h = 1.0 / 60 / workload.substeps;
+    return static_cast<float>(-9.81 * h * h);
+}
+
+// Whether a kernel comes in ten passes to what double precision comes to.
+void demand_right(const FloatRuns& cloth, const FloatKernel& kernel) {
+    FloatRuns work = cloth;
+    // A little out of place, so that there is something to correct.
+    for (std::uint32_t i = 0; i < work.moving.size(); ++i) {
+        const float jitter = 1e-3f * static_cast<float>(i * 2654435761u >> 24) / 256.0f;
+        work.x[i] += jitter;
+        work.y[i] -= jitter;
+        work.z[i] += jitter;
+    }
+    std::vector<double> x(work.x.begin(), work.x.end());
+    std::vector<double> y(work.y.begin(), work.y.end());
+    std::vector<double> z(work.z.begin(), work.z.end());
+    for (int pass = 0; pass < 10; ++pass) {
+        kernel.project(work);
+        project_double(cloth, x, y, z);
+    }
+    double worst = 0;
+    for (std::size_t i = 0; i < work.moving.size(); ++i) {
+        worst = std::fmax(worst, std::abs(x[i] - static_cast<double>(work.x[i])));
+        worst = std::fmax(worst, std::abs(y[i] - static_cast<double>(work.y[i])));
+        worst = std::fmax(worst, std::abs(z[i] - static_cast<double>(work.z[i])));
+    }
+    if (!(worst < 1e-5)) {
+        std::fprintf(stderr, "lockstitch: the benchmark's %s is %g m from what double precision comes to.\n",
+                     kernel.name, worst);
+        std::exit(1);
+    }
+}
+
+class Runs final : public Variant {
+public:
+    Runs(const Workload& workload, const FloatKernel& kernel)
+        : kernel_(kernel), substeps_(workload.substeps), iterations_(workload.iterations),
+          fall_(fall_of(workload)) {
+        const WorkloadAsset asset(workload);
+        const FloatRuns one = make_float_runs(*asset.get(), asset.pinned());
+        demand_right(one, kernel);
+        objects_.assign(workload.objects, one);
+        for (std::uint32_t i = 0; i < workload.warm_ticks; ++i) {
+            tick();
+        }
+    }
+
+    void project() override {
+        for (std::uint32_t pass = 0; pass < substeps_ * iterations_; ++pass) {
+            for (FloatRuns& object : objects_) {
+                kernel_.project(object);
+            }
+        }
+    }
+    void tick() override {
+        for (FloatRuns& object : objects_) {
+            for (std::uint32_t substep = 0; substep < substeps_; ++substep) {
+                kernel_.predict(object, fall_);
+                for (std::uint32_t iteration = 0; iteration < iterations_; ++iteration) {
+                    kernel_.project(object);
+                }
+            }
+        }
+    }
+    std::vector<Point> points() const override {
+        const FloatRuns& object = objects_.front();
+        std::vector<Point> found(object.vertices.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            found[object.vertices[i]] = {object.x[i], object.y[i], object.z[i]};
+        }
+        return found;
+    }
+
+private:
+    const FloatKernel& kernel_;
+    std::uint32_t substeps_;
+    std::uint32_t iterations_;
+    float fall_;
+    std::vector<FloatRuns> objects_;
+};
+
+class Plain final : public Variant {
+public:
+    Plain(const Workload& workload, EdgeOrder order)
+        : substeps_(workload.substeps), iterations_(workload.iterations), fall_(fall_of(workload)) {
+        const WorkloadAsset asset(workload);
+        objects_.assign(workload.objects, make_float_cloth(*asset.get(), asset.pinned(), order));
+        for (std::uint32_t i = 0; i < workload.warm_ticks; ++i) {
+            tick();
+        }
+    }
+
+    void project() override {
+        for (std::uint32_t pass = 0; pass < substeps_ * iterations_; ++pass) {
+            for (FloatCloth& object : objects_) {
+                project_float(object);
+            }
+        }
+    }
+    void tick() override {
+        for (FloatCloth& object : objects_) {
+            for (std::uint32_t substep = 0; substep < substeps_; ++substep) {
+                predict_float(object, fall_);
+                for (std::uint32_t iteration = 0; iteration < iterations_; ++iteration) {
+                    project_float(object);
+                }
+            }
+        }
+    }
+    std::vector<Point> points() const override {
+        std::vector<Point> found;
+        for (const FloatParticle& particle : objects_.front().particles) {
+            found.push_back({particle.x, particle.y, particle.z});
+        }
+        return found;
+    }
+
+private:
+    std::uint32_t substeps_;
+    std::uint32_t iterations_;
+    float fall_;
+    std::vector<FloatCloth> objects_;
+};
+
+} // namespace
+
+std::vector<std::string> float_peer_names() {
+    std::vector<std::string> names;
+    for (const FloatKernel* kernel : float_kernels()) {
+        names.emplace_back(kernel->name);
+    }
+    names.emplace_back(coloured_name);
+    names.emplace_back(indexed_name);
+    return names;
+}
+
+std::unique_ptr<Variant> make_float_peer(const Workload& workload, const std::string& name) {
+    for (const FloatKernel* kernel : float_kernels()) {
+        if (name == kernel->name) {
+            return std::make_unique<Runs>(workload, *kernel);
+        }
+    }
+    return std::make_unique<Plain>(workload,
+                                   name == coloured_name ? EdgeOrder::by_colour : EdgeOrder::by_index);
+}
+
+} // namespace lks_bench

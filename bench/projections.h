@@ -1,0 +1,27 @@
+// The projections of a world by themselves, without prediction, contacts and the rest of a tick.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/world.h"
+
+namespace lks_bench {
+
+class Projections {
+public:
+    explicit Projections(lks_world* world);
+
+    // All constraints of all objects, as they stand, this many times.
+    void run(std::uint32_t passes);
+    // To where the particles were at the beginning.
+    void restore();
+
+private:
+    void project(lks::Object& object) const;
+
+    lks_world* world_;
+    std::vector<std::vector<std::int64_t>> saved_;
+};
+
+} // namespace lks_bench

@@ -1,0 +1,205 @@
+#include "report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "plots.h"
+#include "workloads.h"
+
+namespace lks_bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string processor_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (line.rfind("model name", 0) == 0 && line.find(':') != std::string::npos) {
+            return line.substr(line.find(':') + 2);
+        }
+    }
+    return "unknown processor";
+}
+
+std::string compiler_name() {
+#if defined(__clang__)
+    return "clang " __clang_version__;
+#elif defined(__GNUC__)
+    return "g++ " __VERSION__;
+#else
+    return "unknown compiler";
+#endif
+}
+
+std::string digits(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text,
+                  value != 0 && value < 0.01 ? "%.2e"
+                  : value < 10               ? "%.2f"
+                                             : "%.1f",
+                  value);
+    return text;
+}
+
+void add_once(std::vector<std::string>& names, const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+        names.push_back(name);
+    }
+}
+
+// What of a result names its row, and what its column.
+using Label = const std::string& (*)(const Result&);
+const std::string& by_workload(const Result& r) {
+    return r.workload;
+}
+const std::string& by_measured(const Result& r) {
+    return r.measured;
+}
+const std::string& by_variant(const Result& r) {
+    return r.variant;
+}
+
+// Those results that `wanted` picks, as a table; nothing where it picks none.
+template <typename Wanted>
+std::string table(const Results& results, const std::string& title, Label row_of, Label column_of,
+                  const Wanted& wanted) {
+    std::vector<std::string> rows;
+    std::vector<std::string> columns;
+    for (const Result& r : results) {
+        if (wanted(r)) {
+            add_once(rows, row_of(r));
+            add_once(columns, column_of(r));
+        }
+    }
+    if (rows.empty()) {
+        return {};
+    }
+    std::string text = "\n## " + title + "\n\n|";
+    for (const std::string& column : columns) {
+        text += " | " + column;
+    }
+    text += " |\n|---" + [&] {
+        std::string line;
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            line += "|--:";
+        }
+        return line;
+    }() + "|\n";
+    for (const std::string& row : rows) {
+        text += "| " + row;
+        for (const std::string& column : columns) {
+            std::string cell;
+            for (const Result& r : results) {
+                if (wanted(r) && row_of(r) == row && column_of(r) == column) {
+                    cell = digits(r.value);
+                }
+            }
+            text += " | " + cell;
+        }
+        text += " |\n";
+    }
+    return text;
+}
+
+std::string workload_list(const Results& results) {
+    std::string text = "\n## Workloads\n\n| | | constraints | in runs | bytes a constraint (asset) | "
+                       "bytes a particle (object) |\n|---|---|--:|--:|--:|--:|\n";
+    const std::string head = text;
+    for (const Workload& workload : workloads()) {
+        const Result* count = find(results, workload.name, "constraints", "");
+        const Result* share = find(results, workload.name, "in runs", "");
+        const Result* asset = find(results, workload.name, "asset", "");
+        const Result* object = find(results, workload.name, "object", "");
+        if (count != nullptr && share != nullptr && asset != nullptr && object != nullptr) {
+            char line[300];
+            std::snprintf(line, sizeof line, "| %s | %s | %.0f | %.1f %% | %.1f | %.1f |\n",
+                          workload.name.c_str(), workload.title.c_str(), count->value, 100 * share->value,
+                          asset->value, object->value);
+            text += line;
+        }
+    }
+    return text == head ? std::string() : text;
+}
+
+// Each variant against the best of ours.
+std::string ratios(const Results& results) {
+    Results found;
+    for (const Result& r : results) {
+        if (r.measured != "projection" || r.variant.rfind("float32", 0) == 0 ||
+            r.variant.rfind("Bullet", 0) == 0) {
+            continue;
+        }
+        for (const Result& peer : results) {
+            if (peer.measured == "projection" && peer.workload == r.workload &&
+                (peer.variant.rfind("float32", 0) == 0 || peer.variant.rfind("Bullet", 0) == 0)) {
+                found.push_back({r.workload + ", " + r.variant, "", peer.variant, peer.ratio / r.ratio, ""});
+            }
+        }
+    }
+    return table(found, "Peers' time / ours (above 1: ours is faster)", by_workload, by_variant,
+                 [](const Result&) { return true; });
+}
+
+std::string markdown(const Results& results, const std::vector<Plot>& plots) {
+    std::string text = "# What Lockstitch costs\n\n" + processor_name() + ", " +
+                       std::to_string(std::thread::hardware_concurrency()) + " threads; " + compiler_name() +
+                       ". One thread but where it says two workers. Medians of rounds in which all variants "
+                       "take turns; all variants of ours give the same bits.\n";
+    text += workload_list(results);
+    text += table(results, "Nanoseconds a constraint projection", by_workload, by_variant,
+                  [](const Result& r) { return r.measured == "projection"; });
+    text += ratios(results);
+    text += table(results, "Nanoseconds a projection, whole tick", by_workload, by_variant,
+                  [](const Result& r) { return r.measured == "tick" && r.unit == "ns a projection"; });
+    text += table(results, "Threads, whole ticks, ns a projection", by_workload, by_variant,
+                  [](const Result& r) { return r.measured == "threads"; });
+    text += table(results, "Milliseconds a tick", by_workload, by_variant,
+                  [](const Result& r) { return r.measured == "tick" && r.unit == "ms"; });
+    text += table(results, "Instructions a projection (valgrind; knows no AVX-512)", by_workload, by_variant,
+                  [](const Result& r) { return r.measured == "instructions"; });
+    text += table(results, "Snapshots of a 256² cloth, GB/s", by_variant, by_measured,
+                  [](const Result& r) { return r.unit == "GB/s"; });
+    text += table(results, "Fixed cost of a tick, ns", by_variant, by_measured,
+                  [](const Result& r) { return r.workload == "overhead"; });
+    text += table(results, "Residual stretch (root mean square), substeps × iterations", by_measured,
+                  by_variant, [](const Result& r) { return r.unit == "relative stretch"; });
+    text += table(results, "Milliseconds a tick of the same", by_measured, by_variant,
+                  [](const Result& r) { return r.workload == "accuracy" && r.unit == "ms"; });
+    for (const Plot& plot : plots) {
+        text += "\n## " + std::string(plot.title) + "\n\n![" + plot.title + "](" + plot.file + ")\n";
+    }
+    return text;
+}
+
+bool write(const fs::path& path, const std::string& text, std::string& error) {
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) {
+        error = "The file " + path.string() + " can't be written.";
+    }
+    return static_cast<bool>(file);
+}
+
+} // namespace
+
+bool write_report(const std::string& folder, const Results& results, std::string& error) {
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    if (failure) {
+        error = "The folder " + folder + " can't be made: " + failure.message() + ".";
+        return false;
+    }
+    std::vector<Plot> plots;
+    const bool drawn = draw_plots(folder, results, plots, error);
+    return write(fs::path(folder) / "results.json", to_json(results), error) &&
+           write(fs::path(folder) / "results.csv", to_csv(results), error) &&
+           write(fs::path(folder) / "report.md", markdown(results, drawn ? plots : std::vector<Plot>()),
+                 error) &&
+           drawn;
+}
+
+} // namespace lks_bench

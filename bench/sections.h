@@ -1,0 +1,30 @@
+// The parts of a benchmark, each of which adds its rows. Variants take turns within rounds.
+#pragma once
+
+#include "results.h"
+#include "workloads.h"
+
+namespace lks_bench {
+
+inline constexpr const char* snapshots_name = "snapshots";
+inline constexpr const char* overhead_name = "overhead";
+inline constexpr const char* accuracy_name = "accuracy";
+
+// Nanoseconds a projection by itself, the same within a tick, with two workers, and milliseconds a tick;
+// bytes a particle and a constraint; the share of constraints in runs.
+void measure_workload(const Workload& workload, int rounds, Results& results);
+// Save, load and hash of a 256² cloth beside memcpy, GB/s.
+void measure_snapshots(int rounds, Results& results);
+// A tick in which there is next to nothing to do: of an empty world, and what one more object costs.
+void measure_overhead(int rounds, Results& results);
+// Ours and float32 on cloths of 1,000 to 1,000,000 constraints.
+void measure_growth(int rounds, Results& results);
+// A 64² cloth that falls and swings for two seconds: milliseconds a tick, and the root mean square of the
+// relative stretch of its constraints over the last second, for substeps × iterations.
+void measure_accuracy(int rounds, Results& results);
+// Instructions a projection, counted by valgrind. False, with a sentence: it can't be run.
+bool count_instructions(const std::string& program, Results& results, std::string& error);
+// What count_instructions runs under valgrind.
+void project_once(const Workload& workload, const std::string& variant);
+
+} // namespace lks_bench
