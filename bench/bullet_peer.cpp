@@ -25,8 +25,8 @@ public:
     }
 
     void project() override {
-        for (std::uint32_t pass = 0; pass < substeps_ * iterations_; ++pass) {
-            for (const std::unique_ptr<btSoftBody>& body : bodies_) {
+        for (const std::unique_ptr<btSoftBody>& body : bodies_) {
+            for (std::uint32_t pass = 0; pass < substeps_ * iterations_; ++pass) {
                 btSoftBody::PSolve_Links(body.get(), 1, 0);
             }
         }

@@ -77,8 +77,8 @@ public:
     }
 
     void project() override {
-        for (std::uint32_t pass = 0; pass < substeps_ * iterations_; ++pass) {
-            for (FloatRuns& object : objects_) {
+        for (FloatRuns& object : objects_) {
+            for (std::uint32_t pass = 0; pass < substeps_ * iterations_; ++pass) {
                 kernel_.project(object);
             }
         }
@@ -122,8 +122,8 @@ public:
     }
 
     void project() override {
-        for (std::uint32_t pass = 0; pass < substeps_ * iterations_; ++pass) {
-            for (FloatCloth& object : objects_) {
+        for (FloatCloth& object : objects_) {
+            for (std::uint32_t pass = 0; pass < substeps_ * iterations_; ++pass) {
                 project_float(object);
             }
         }

@@ -13,8 +13,8 @@ Projections::Projections(lks_world* world) : world_(world) {
 }
 
 void Projections::run(std::uint32_t passes) {
-    for (std::uint32_t pass = 0; pass < passes; ++pass) {
-        for (lks::ObjectSlot& slot : world_->objects) {
+    for (lks::ObjectSlot& slot : world_->objects) {
+        for (std::uint32_t pass = 0; pass < passes; ++pass) {
             project(*slot.object);
         }
     }

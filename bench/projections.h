@@ -12,7 +12,7 @@ class Projections {
 public:
     explicit Projections(lks_world* world);
 
-    // All constraints of all objects, as they stand, this many times.
+    // All constraints of each object, as they stand, this many times: object by object, as in a tick.
     void run(std::uint32_t passes);
     // To where the particles were at the beginning.
     void restore();

@@ -46,6 +46,7 @@ private:
         def.area_density = 0.3;
         def.shear.compliance = 1e-6;
         def.bend.compliance = 1e-4;
+        def.bend.damping = 2;
         const lks_asset* asset = nullptr;
         ClothLook look;
         look.front = {Pattern::stripes, rgb(0x33497f), rgb(0xeadfc8), rgb(0xcf9a3e), 0.24f};

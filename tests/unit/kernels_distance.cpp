@@ -108,7 +108,7 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
     problem.parameters.gain_shift = unit_fraction_bits + direction_fraction_bits - gain_bits;
     problem.parameters.product_shift = gain_bits - shift + exponent;
     problem.parameters.error_share = kind.damped ? static_cast<std::uint32_t>(random.bits() >> 33) : unit_one;
-    problem.parameters.damping_share = kind.damped ? static_cast<std::uint32_t>(random.bits() >> 33) : 0;
+    problem.parameters.damping_share = unit_one - problem.parameters.error_share;
     problem.positions.resize(6 * n + widest_group - 1);
     for (std::size_t i = 0; i < problem.positions.size(); ++i) {
         problem.positions[i] = signed_below(random, 61);
@@ -169,6 +169,7 @@ Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Pro
         ++task.runs;
         --task.run_count;
     }
+    task.short_runs = batch.runs.size() % 2 == 0; // kernels may believe it or not
     task.whole_batch = range.first == 0 && range.last == batch.constraints.size();
     task.first_single = batch.first_single;
     task.constraints = batch.constraints.data();

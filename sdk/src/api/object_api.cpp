@@ -68,7 +68,7 @@ void place_particles(Object& object, const lks_object_def& def, const StepRate& 
     object.origin = to_vec3(def.transform.position);
     object.gravity_factor = def.gravity_factor;
     object.linear_damping = def.linear_damping;
-    std::copy_n(object.axis(0), object.previous.size(), object.previous.data());
+    object.keep_previous();
 }
 
 // The first free index, or one more than all.

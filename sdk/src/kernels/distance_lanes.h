@@ -1,10 +1,11 @@
-// A range of one batch, 2·L::half constraints at a time: kernels/distance_scalar.h over lanes.
+// A range of one batch, groups of 2·L::half constraints at a time: kernels/distance_scalar.h over lanes.
 //
 // L is one instruction set: registers of L::half 64-bit lanes and a few operations on them. A group of
 // constraints is two registers of coordinates, A and B; what is 32 bits wide is kept in one register, A's in
-// the even halves and B's in the odd ones, where 32×32→64 multiplications find it. A group in which a lane
-// leaves the fast range (an edge 2^30 units long, or shorter than 2^16) is projected in plain integers, which
-// gives the same bits.
+// the even halves and B's in the odd ones, where 32×32→64 multiplications find it. Some groups go through
+// each stage together (differences, corrections, movements): a group's steps wait for each other, and the
+// steps of its neighbours fill the time. A group in which a lane leaves the fast range (an edge 2^30 units
+// long, or shorter than 2^16) is projected in plain integers, which gives the same bits.
 #pragma once
 
 #include "kernels/distance_scalar_loop.h"
@@ -18,12 +19,27 @@ struct Group {
     typename L::Register a, b;
 };
 
+// All bits in the first lanes that are loaded from widest_group on, and none before and behind.
+constexpr std::int64_t lane_bits[3 * widest_group] = {0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,
+                                                      0,  0,  0,  0,  0,  -1, -1, -1, -1, -1, -1,
+                                                      -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+
 // A stretch in which both ends advance by one.
 template <typename L>
 struct RunAccess {
+    static constexpr std::uint32_t together = L::together;
+    static constexpr bool whole = true;
+
     std::uint32_t constraint;
     std::uint32_t a;
     std::uint32_t b;
+
+    template <typename Use>
+    void for_each(const Use& use) const {
+        for (std::uint32_t lane = 0; lane < 2 * L::half; ++lane) {
+            use(constraint + lane, a + lane, b + lane);
+        }
+    }
 
     LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
         return {L::load(x + a), L::load(x + a + L::half)};
@@ -49,77 +65,141 @@ struct RunAccess {
     }
 };
 
-// The end of a run: loads as a whole group does, and stores its own lanes only.
+// `count` lanes from `first` on of a stretch; the others are not part of it, and do not move.
 template <typename L>
-struct TailAccess : RunAccess<L> {
-    std::uint32_t count;
+struct PartialAccess {
+    static constexpr std::uint32_t together = L::together;
+    static constexpr bool whole = false;
 
+    RunAccess<L> run;
+    std::uint32_t first;
+    std::uint32_t count;
+    // Whether the particles of the other lanes may be read, and written as they are.
+    bool loads_whole;
+    bool stores_whole;
+
+    LKS_FORCE_INLINE Group<L> masked(const Group<L>& values) const {
+        const std::int64_t* bits = lane_bits + (first == 0 ? 2 * widest_group - count : widest_group - first);
+        return {L::bit_and(values.a, L::load(bits)), L::bit_and(values.b, L::load(bits + L::half))};
+    }
+    LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
+        return loads_whole ? run.load_a(x) : load_lanes(x + run.a);
+    }
+    LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
+        return loads_whole ? run.load_b(x) : load_lanes(x + run.b);
+    }
     LKS_FORCE_INLINE void store(std::int64_t* x, const Group<L>& at_a, const Group<L>& at_b) const {
-        constexpr std::uint32_t lanes = 2 * L::half;
-        std::int64_t values[2 * lanes];
-        L::store(values, at_a.a);
-        L::store(values + L::half, at_a.b);
-        L::store(values + lanes, at_b.a);
-        L::store(values + lanes + L::half, at_b.b);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            x[this->a + i] = values[i];
-            x[this->b + i] = values[lanes + i];
+        if (stores_whole) {
+            run.store(x, at_a, at_b);
+        } else {
+            store_lanes(x + run.a, at_a);
+            store_lanes(x + run.b, at_b);
+        }
+    }
+    LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
+        return load_lanes(values + run.constraint);
+    }
+    LKS_FORCE_INLINE void store_wide(std::int64_t* values, const Group<L>& group) const {
+        store_lanes(values + run.constraint, group);
+    }
+    LKS_FORCE_INLINE Group<L> load(const std::uint32_t* values) const { return run.load(values); }
+
+    template <typename Use>
+    void for_each(const Use& use) const {
+        for (std::uint32_t lane = first; lane < first + count; ++lane) {
+            use(run.constraint + lane, run.a + lane, run.b + lane);
+        }
+    }
+
+private:
+    Group<L> load_lanes(const std::int64_t* x) const {
+        std::int64_t values[2 * L::half] = {};
+        for (std::uint32_t lane = first; lane < first + count; ++lane) {
+            values[lane] = x[lane];
+        }
+        return {L::load(values), L::load(values + L::half)};
+    }
+    void store_lanes(std::int64_t* x, const Group<L>& group) const {
+        std::int64_t values[2 * L::half];
+        L::store(values, group.a);
+        L::store(values + L::half, group.b);
+        for (std::uint32_t lane = first; lane < first + count; ++lane) {
+            x[lane] = values[lane];
         }
     }
 };
 
-// Constraints from anywhere in the batch. Lanes from `count` on repeat the first one and are not stored.
+// Constraints that follow each other in the batch, with ends anywhere; lanes from `count` on repeat the first
+// one and are not stored.
 template <typename L>
-struct ScatteredAccess {
+struct SinglesAccess {
     static constexpr std::uint32_t lanes = 2 * L::half;
-    std::uint32_t count = 0;
-    std::uint32_t constraint[lanes];
-    std::uint32_t a[lanes];
-    std::uint32_t b[lanes];
+    static constexpr std::uint32_t together = L::singles_together;
+    static constexpr bool whole = true;
 
-    void push(std::uint32_t index, std::uint32_t end_a, std::uint32_t end_b) {
-        constraint[count] = index;
-        a[count] = end_a;
-        b[count] = end_b;
-        ++count;
-    }
-    void fill_up() {
-        for (std::uint32_t i = count; i < lanes; ++i) {
-            constraint[i] = constraint[0];
-            a[i] = a[0];
-            b[i] = b[0];
+    std::uint32_t constraint;
+    std::uint32_t count;
+    Constraint ends[lanes];
+
+    void take(const Constraint* constraints, std::uint32_t first, std::uint32_t number) {
+        constraint = first;
+        count = number;
+        for (std::uint32_t i = 0; i < lanes; ++i) {
+            ends[i] = constraints[first + (i < number ? i : 0)];
         }
     }
+    template <typename Use>
+    void for_each(const Use& use) const {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            use(constraint + i, ends[i].a, ends[i].b);
+        }
+    }
+
     LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
-        return {L::gather(x, a), L::gather(x, a + L::half)};
+        return {L::gather(x, &ends[0].a), L::gather(x, &ends[L::half].a)};
     }
     LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
-        return {L::gather(x, b), L::gather(x, b + L::half)};
+        return {L::gather(x, &ends[0].b), L::gather(x, &ends[L::half].b)};
     }
-    void store(std::int64_t* x, const Group<L>& at_a, const Group<L>& at_b) const {
-        std::int64_t values[2 * lanes];
-        L::store(values, at_a.a);
-        L::store(values + L::half, at_a.b);
-        L::store(values + lanes, at_b.a);
-        L::store(values + lanes + L::half, at_b.b);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            x[a[i]] = values[i];
-            x[b[i]] = values[lanes + i];
+    LKS_FORCE_INLINE void store(std::int64_t* x, const Group<L>& at_a, const Group<L>& at_b) const {
+        if (count == lanes) {
+            L::scatter(x, &ends[0].a, at_a.a);
+            L::scatter(x, &ends[L::half].a, at_a.b);
+            L::scatter(x, &ends[0].b, at_b.a);
+            L::scatter(x, &ends[L::half].b, at_b.b);
+        } else {
+            store_lanes(x, at_a, [](const Constraint& c) { return c.a; });
+            store_lanes(x, at_b, [](const Constraint& c) { return c.b; });
         }
     }
     LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
-        return {L::gather(values, constraint), L::gather(values, constraint + L::half)};
+        std::int64_t parts[lanes] = {};
+        for (std::uint32_t i = 0; i < count; ++i) {
+            parts[i] = values[constraint + i];
+        }
+        return {L::load(parts), L::load(parts + L::half)};
     }
-    void store_wide(std::int64_t* values, const Group<L>& group) const {
+    LKS_FORCE_INLINE void store_wide(std::int64_t* values, const Group<L>& group) const {
         std::int64_t parts[lanes];
         L::store(parts, group.a);
         L::store(parts + L::half, group.b);
         for (std::uint32_t i = 0; i < count; ++i) {
-            values[constraint[i]] = parts[i];
+            values[constraint + i] = parts[i];
         }
     }
     LKS_FORCE_INLINE Group<L> load(const std::uint32_t* values) const {
-        return {L::gather_widened(values, constraint), L::gather_widened(values, constraint + L::half)};
+        return {L::load_widened(values + constraint), L::load_widened(values + constraint + L::half)};
+    }
+
+private:
+    template <typename End>
+    void store_lanes(std::int64_t* x, const Group<L>& group, const End& end) const {
+        std::int64_t values[lanes];
+        L::store(values, group.a);
+        L::store(values + L::half, group.b);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            x[end(ends[i])] = values[i];
+        }
     }
 };
 
@@ -179,26 +259,29 @@ private:
     R after_;
 };
 
-// Loaded from widest_group − count on: all bits in the first `count` lanes, and none in the others.
-constexpr std::int64_t first_lanes[2 * widest_group] = {-1, -1, -1, -1, -1, -1, -1, -1,
-                                                        -1, -1, -1, -1, -1, -1, -1, -1};
-
-// What f needs of an edge beside its stretch: its groups' lengths and directions.
+// Of a group's squared lengths u.
 template <typename L>
-struct EdgeLanes {
-    Group<L> wide[3]; // x_a − x_b
-    Group<L> d[3];
-    Group<L> u;
+struct LengthLanes {
     Group<L> twice_k;
     Group<L> m; // Q2.30, low in each lane
     Group<L> y; // low in each lane, with something else above it
+};
+
+// A group between the stages.
+template <typename L>
+struct StagedGroup {
+    bool plain; // a lane leaves the fast range
+    Group<L> d[3];
+    Group<L> u;
+    Group<L> motion; // u − d·(d at the start of the substep), where there is damping
+    Group<L> f;
 };
 
 template <typename L, bool equal_shares, bool soft, bool damped, bool multiplier>
 class DistanceGroups {
     using R = typename L::Register;
     using G = Group<L>;
-    using Edge = EdgeLanes<L>;
+    using Lengths = LengthLanes<L>;
 
 public:
     explicit DistanceGroups(const DistanceTask& task)
@@ -210,69 +293,103 @@ public:
           product_shift_(
               task.parameters.product_shift,
               task.parameters.product_shift > 0 ? std::int64_t{1} << (task.parameters.product_shift - 1) : 0),
-          plain_(task.parameters.product_shift == 0), bias_(bias(task, 30)), motion_bias_(bias(task, 29)),
+          plain_(task.parameters.product_shift == 0), bias_(bias(task)),
           ratio_shift_(L::set(32 + task.parameters.rest_exponent)),
           gain_rounding_(L::set(std::int64_t{1} << (task.parameters.gain_shift - 1))),
           error_share_(L::set(task.parameters.error_share)),
           damping_share_(L::set(task.parameters.damping_share)),
-          length_shift_(L::set(30 - task.parameters.difference_shift)) {}
+          length_shift_(L::set(30 - task.parameters.difference_shift)), axes_{task.arrays.x, task.arrays.y,
+                                                                              task.arrays.z},
+          starts_{task.arrays.start_x, task.arrays.start_y, task.arrays.start_z} {}
 
-    // False, and nothing is changed: a lane needs the plain way. Lanes from `count` on are left as they are.
-    template <bool whole = true, typename Access>
-    LKS_FORCE_INLINE bool project(const Access& at, std::uint32_t count = 2 * L::half) const {
-        std::int64_t* const axes[3] = {task_.arrays.x, task_.arrays.y, task_.arrays.z};
-        Edge edge;
+    template <typename Access>
+    LKS_FORCE_INLINE void find_differences(const Access& at, StagedGroup<L>& group) const {
         R beyond = L::set(0);
         for (int axis = 0; axis < 3; ++axis) {
-            const G a = at.load_a(axes[axis]);
-            const G b = at.load_b(axes[axis]);
-            edge.wide[axis] = {L::subtract(a.a, b.a), L::subtract(a.b, b.b)};
-            if constexpr (!whole) {
-                edge.wide[axis] = masked(edge.wide[axis], count);
+            group.d[axis] = difference(at, axes_[axis], beyond);
+        }
+        group.u = dot_product(group.d, group.d);
+        const R high_u = L::high_halves(group.u.a, group.u.b);
+        R outside = L::equal_32(high_u, L::set_32(0));
+        if constexpr (damped) {
+            G start[3];
+            for (int axis = 0; axis < 3; ++axis) {
+                start[axis] = difference(at, starts_[axis], beyond);
             }
-            edge.d[axis] = narrow(edge.wide[axis], bias_, direction_one, beyond);
+            const G product = dot_product(group.d, start);
+            group.motion = {L::subtract(group.u.a, product.a), L::subtract(group.u.b, product.b)};
+            outside = L::bit_or(outside, is_fast(high_u, L::high_halves(group.motion.a, group.motion.b)));
         }
-        edge.u = dot_product(edge.d, edge.d);
-        const R high_u = L::high_halves(edge.u.a, edge.u.b);
-        R too_short = L::equal_32(high_u, L::set_32(0));
-        if constexpr (!whole) {
-            const G all_bits{L::set(-1), L::set(-1)};
-            const G mask = masked(all_bits, count);
-            too_short = L::bit_and(too_short, L::high_halves(mask.a, mask.b));
+        if constexpr (!Access::whole) {
+            const G mask = at.masked({L::set(-1), L::set(-1)});
+            outside = L::bit_and(outside, L::high_halves(mask.a, mask.b));
         }
-        if (L::any(L::bit_or(too_short, L::bit_and(beyond, L::set(~std::int64_t{INT32_MAX}))))) {
-            return false;
-        }
-        measure(edge, high_u);
-        G f = relative_error(edge, at.load(task_.rest_mantissas));
+        group.plain = L::any(L::bit_or(outside, L::bit_and(beyond, L::set(~std::int64_t{INT32_MAX}))));
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE void find_correction(const Access& at, StagedGroup<L>& group) const {
+        const Lengths lengths = measure(group.u);
+        group.f = relative_error(lengths, at.load(task_.rest_mantissas));
         if constexpr (soft && (damped || multiplier)) {
-            if (!soften(at, edge, f)) {
-                return false;
-            }
+            group.plain = !soften(at, group, lengths, group.f) || group.plain;
         }
         if constexpr (multiplier) {
-            add_to_multipliers(at, edge, f);
+            if (!group.plain) {
+                add_to_multipliers(at, lengths, group.f);
+            }
         }
-        move<whole>(at, axes, edge.d, f, count);
-        return true;
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE void move(const Access& at, const StagedGroup<L>& group) const {
+        const G share_a = at.load(task_.shares_a);
+        if constexpr (equal_shares) {
+            move_alike(at, group.d, group.f, share_a);
+        } else {
+            const G share_b = at.load(task_.shares_b);
+            const G alike{L::equal(share_a.a, share_b.a), L::equal(share_a.b, share_b.b)};
+            if (L::all(L::bit_and(alike.a, alike.b))) {
+                move_alike(at, group.d, group.f, share_a);
+            } else {
+                move_by_share(at, group.d, group.f, share_a, share_b, alike);
+            }
+        }
     }
 
 private:
-    // Half a unit to round, and what makes 2^bits units positive.
-    LKS_FORCE_INLINE static R bias(const DistanceTask& task, int bits) {
+    // Half a unit to round, and what makes 2^30 units positive.
+    static R bias(const DistanceTask& task) {
         return L::set((std::int64_t{1} << (task.parameters.difference_shift - 1)) +
-                      (std::int64_t{1} << (task.parameters.difference_shift + bits)));
+                      (std::int64_t{1} << (task.parameters.difference_shift + 30)));
     }
 
-    // In difference units, within ±offset; else bits above the 31st of `beyond` are set. The bias adds offset
-    // units.
-    LKS_FORCE_INLINE G narrow(const G& wide, R with_bias, std::int64_t offset, R& beyond) const {
-        const R a = L::shift_right(L::add(wide.a, with_bias), shift_);
-        const R b = L::shift_right(L::add(wide.b, with_bias), shift_);
-        // Twice the smaller offsets' lanes: the same bit tells.
-        beyond = L::bit_or(beyond, offset == direction_one ? L::bit_or(a, b)
-                                                           : L::add(L::bit_or(a, b), L::bit_or(a, b)));
-        return {L::subtract(a, L::set(offset)), L::subtract(b, L::set(offset))};
+    // x_a − x_b in difference units.
+    template <typename Access>
+    LKS_FORCE_INLINE G difference(const Access& at, const std::int64_t* x, R& beyond) const {
+        const G a = at.load_a(x);
+        const G b = at.load_b(x);
+        G wide{L::subtract(a.a, b.a), L::subtract(a.b, b.b)};
+        if constexpr (!Access::whole) {
+            wide = at.masked(wide);
+        }
+        return narrow(wide, beyond);
+    }
+
+    // In difference units, within ±2^30; else bits above the 31st of `beyond` are set.
+    LKS_FORCE_INLINE G narrow(const G& wide, R& beyond) const {
+        const R a = L::shift_right(L::add(wide.a, bias_), shift_);
+        const R b = L::shift_right(L::add(wide.b, bias_), shift_);
+        beyond = L::bit_or(beyond, L::bit_or(a, b));
+        return {L::subtract(a, L::set(direction_one)), L::subtract(b, L::set(direction_one))};
+    }
+
+    // The sign bit of 32-bit lanes in which |motion| might exceed 3/2·u, from the high halves of both.
+    LKS_FORCE_INLINE static R is_fast(R high_u, R high_motion) {
+        const R limit = L::add_32(high_u, L::template shift_right_32<1>(high_u));
+        const R below = L::add_32(limit, high_motion);
+        const R above = L::subtract_32(L::add_32(limit, L::set_32(-1)), high_motion);
+        return L::bit_and(L::bit_or(below, above), L::set_32(INT32_MIN));
     }
 
     LKS_FORCE_INLINE static G dot_product(const G* v, const G* w) {
@@ -283,20 +400,22 @@ private:
                     L::multiply_signed(v[2].b, w[2].b))};
     }
 
-    LKS_FORCE_INLINE static void measure(Edge& edge, R high_u) {
-        const R twice_k = L::bit_and(L::leading_zeros_32(high_u), L::set_32(~1));
-        edge.twice_k = {L::bit_and(twice_k, L::set(UINT32_MAX)), L::template shift_right<32>(twice_k)};
-        const G aligned{L::shift_left_each(edge.u.a, edge.twice_k.a),
-                        L::shift_left_each(edge.u.b, edge.twice_k.b)};
-        edge.m = {L::template shift_right<32>(aligned.a), L::template shift_right<32>(aligned.b)};
-        const R y = reciprocal_sqrt_lanes<L>(edge.m.a, edge.m.b, L::high_halves(aligned.a, aligned.b));
-        edge.y = {y, L::template shift_right<32>(y)};
+    LKS_FORCE_INLINE static Lengths measure(const G& u) {
+        Lengths lengths;
+        const R twice_k = L::bit_and(L::leading_zeros_32(L::high_halves(u.a, u.b)), L::set_32(~1));
+        lengths.twice_k = {L::bit_and(twice_k, L::set(UINT32_MAX)), L::template shift_right<32>(twice_k)};
+        const G aligned{L::shift_left_each(u.a, lengths.twice_k.a),
+                        L::shift_left_each(u.b, lengths.twice_k.b)};
+        lengths.m = {L::template shift_right<32>(aligned.a), L::template shift_right<32>(aligned.b)};
+        const R y = reciprocal_sqrt_lanes<L>(lengths.m.a, lengths.m.b, L::high_halves(aligned.a, aligned.b));
+        lengths.y = {y, L::template shift_right<32>(y)};
+        return lengths;
     }
 
     // g = min(L/len, 2) − 1 in Direction format, as 64-bit numbers.
-    LKS_FORCE_INLINE G relative_error(const Edge& edge, const G& rest) const {
-        return {ratio_less_one(L::multiply_unsigned(rest.a, edge.y.a), edge.twice_k.a),
-                ratio_less_one(L::multiply_unsigned(rest.b, edge.y.b), edge.twice_k.b)};
+    LKS_FORCE_INLINE G relative_error(const Lengths& lengths, const G& rest) const {
+        return {ratio_less_one(L::multiply_unsigned(rest.a, lengths.y.a), lengths.twice_k.a),
+                ratio_less_one(L::multiply_unsigned(rest.b, lengths.y.b), lengths.twice_k.b)};
     }
 
     LKS_FORCE_INLINE R ratio_less_one(R product, R twice_k) const {
@@ -310,48 +429,47 @@ private:
 
     // f from g. False: a lane leaves the fast range.
     template <typename Access>
-    LKS_FORCE_INLINE bool soften(const Access& at, const Edge& edge, G& f) const {
-        R beyond = L::set(0);
+    LKS_FORCE_INLINE bool soften(const Access& at, const StagedGroup<L>& group, const Lengths& lengths,
+                                 G& f) const {
         if constexpr (damped) {
-            const std::int64_t* const starts[3] = {task_.arrays.start_x, task_.arrays.start_y,
-                                                   task_.arrays.start_z};
-            G motion[3];
-            for (int axis = 0; axis < 3; ++axis) {
-                const G a = at.load_a(starts[axis]);
-                const G b = at.load_b(starts[axis]);
-                const G wide{L::subtract(edge.wide[axis].a, L::subtract(a.a, b.a)),
-                             L::subtract(edge.wide[axis].b, L::subtract(a.b, b.b))};
-                motion[axis] = narrow(wide, motion_bias_, direction_one / 2, beyond);
-            }
-            const G dot = dot_product(edge.d, motion);
-            f = {damp(f.a, dot.a, edge.y.a, edge.twice_k.a, beyond),
-                 damp(f.b, dot.b, edge.y.b, edge.twice_k.b, beyond)};
-        }
-        if constexpr (multiplier) {
-            if (task_.relaxations != nullptr) {
-                const G lambda = at.load_wide(task_.arrays.multipliers);
-                const G length = narrow(lambda, bias_, direction_one, beyond);
-                const G relaxation = at.load(task_.relaxations);
-                f = {relax(f.a, length.a, relaxation.a, edge.y.a, edge.twice_k.a),
-                     relax(f.b, length.b, relaxation.b, edge.y.b, edge.twice_k.b)};
-            }
+            const G shift{L::subtract(lengths.twice_k.a, L::set(2)),
+                          L::subtract(lengths.twice_k.b, L::set(2))};
+            f = {damp(f.a, L::shift_left_each(group.motion.a, shift.a), lengths.y.a),
+                 damp(f.b, L::shift_left_each(group.motion.b, shift.b), lengths.y.b)};
         }
         // |f| ≤ 1, but for the upper end itself.
+        if constexpr (!multiplier) {
+            const R beyond =
+                L::bit_or(L::add(f.a, L::set(direction_one)), L::add(f.b, L::set(direction_one)));
+            return !L::any(L::bit_and(beyond, L::set(std::int64_t{1} << 31)));
+        }
+        R beyond = L::set(0);
+        if (task_.relaxations != nullptr) {
+            const G length = narrow(at.load_wide(task_.arrays.multipliers), beyond);
+            const G relaxation = at.load(task_.relaxations);
+            f = {relax(f.a, length.a, relaxation.a, lengths.y.a, lengths.twice_k.a),
+                 relax(f.b, length.b, relaxation.b, lengths.y.b, lengths.twice_k.b)};
+        }
         beyond = L::bit_or(beyond,
                            L::bit_or(L::add(f.a, L::set(direction_one)), L::add(f.b, L::set(direction_one))));
         return !L::any(L::bit_and(beyond, L::set(~std::int64_t{INT32_MAX})));
     }
 
-    // c·g − γ'·motion/len, the motion along the edge within ±len.
-    LKS_FORCE_INLINE R damp(R g, R dot, R y, R twice_k, R& beyond) const {
-        const LengthShift by(twice_k);
-        const R rounded = L::shift_right_each(L::add(dot, by.half), by.right);
-        const R along = L::template shift_right<30>(
-            L::add(L::multiply_signed(rounded, y), L::set(std::int64_t{1} << 29)));
-        const R motion = over_length(along, y, by);
-        beyond = L::bit_or(beyond, L::add(motion, L::set(direction_one)));
-        return rounded_unit_shift_(
-            L::subtract(L::multiply_signed(error_share_, g), L::multiply_signed(damping_share_, motion)));
+    // c·g − γ'·motion/u; `aligned` is motion·2^(2k − 2). Only the low half counts where there are no
+    // multipliers: f is within ±3/2.
+    LKS_FORCE_INLINE R damp(R g, R aligned, R y) const {
+        const R high = L::template shift_right<32>(L::add(aligned, L::set(std::int64_t{1} << 31)));
+        const R reciprocal = L::template shift_right<32>(L::multiply_unsigned(y, y));
+        const R motion = L::template shift_right<28>(
+            L::add(L::multiply_signed(high, reciprocal), L::set(std::int64_t{1} << 27)));
+        const R f =
+            L::subtract(L::multiply_signed(error_share_, g), L::multiply_signed(damping_share_, motion));
+        if constexpr (multiplier) {
+            return rounded_unit_shift_(f);
+        } else {
+            return L::template shift_right<unit_fraction_bits>(
+                L::add(f, L::set(std::int64_t{1} << (unit_fraction_bits - 1))));
+        }
     }
 
     LKS_FORCE_INLINE R relax(R f, R length, R relaxation, R y, R twice_k) const {
@@ -376,11 +494,11 @@ private:
 
     // Λ += f·len.
     template <typename Access>
-    LKS_FORCE_INLINE void add_to_multipliers(const Access& at, const Edge& edge, const G& f) const {
+    LKS_FORCE_INLINE void add_to_multipliers(const Access& at, const Lengths& lengths, const G& f) const {
         const G lambda = at.load_wide(task_.arrays.multipliers);
         at.store_wide(task_.arrays.multipliers,
-                      {L::add(lambda.a, length_of(f.a, edge.m.a, edge.y.a, edge.twice_k.a)),
-                       L::add(lambda.b, length_of(f.b, edge.m.b, edge.y.b, edge.twice_k.b))});
+                      {L::add(lambda.a, length_of(f.a, lengths.m.a, lengths.y.a, lengths.twice_k.a)),
+                       L::add(lambda.b, length_of(f.b, lengths.m.b, lengths.y.b, lengths.twice_k.b))});
     }
 
     LKS_FORCE_INLINE R length_of(R f, R m, R y, R twice_k) const {
@@ -392,45 +510,16 @@ private:
                            L::shift_right_each(lift, right));
     }
 
-    // Nothing in lanes from `count` on.
-    static LKS_FORCE_INLINE G masked(const G& values, std::uint32_t count) {
-        const std::int64_t* mask = first_lanes + widest_group - count;
-        return {L::bit_and(values.a, L::load(mask)), L::bit_and(values.b, L::load(mask + L::half))};
-    }
-
-    template <bool whole, typename Access>
-    LKS_FORCE_INLINE G load_shares(const Access& at, const std::uint32_t* shares, std::uint32_t count) const {
-        return whole ? at.load(shares) : masked(at.load(shares), count);
-    }
-
-    template <bool whole, typename Access>
-    LKS_FORCE_INLINE void move(const Access& at, std::int64_t* const* axes, const G* d, const G& f,
-                               std::uint32_t count) const {
-        const G share_a = load_shares<whole>(at, task_.shares_a, count);
-        if constexpr (equal_shares) {
-            move_alike(at, axes, d, f, share_a);
-        } else {
-            const G share_b = load_shares<whole>(at, task_.shares_b, count);
-            const G alike{L::equal(share_a.a, share_b.a), L::equal(share_a.b, share_b.b)};
-            if (L::all(L::bit_and(alike.a, alike.b))) {
-                move_alike(at, axes, d, f, share_a);
-            } else {
-                move_by_share(at, axes, d, f, share_a, share_b, alike);
-            }
-        }
-    }
-
     template <typename Access>
-    LKS_FORCE_INLINE void move_alike(const Access& at, std::int64_t* const* axes, const G* d, const G& f,
-                                     const G& share) const {
+    LKS_FORCE_INLINE void move_alike(const Access& at, const G* d, const G& f, const G& share) const {
         const G gain{rounded_gain_shift_(L::multiply_signed(share.a, f.a)),
                      rounded_gain_shift_(L::multiply_signed(share.b, f.b))};
         for (int axis = 0; axis < 3; ++axis) {
             const R correction_a = to_coordinate(L::multiply_signed(d[axis].a, gain.a));
             const R correction_b = to_coordinate(L::multiply_signed(d[axis].b, gain.b));
-            const G a = at.load_a(axes[axis]);
-            const G b = at.load_b(axes[axis]);
-            at.store(axes[axis], {L::add(a.a, correction_a), L::add(a.b, correction_b)},
+            const G a = at.load_a(axes_[axis]);
+            const G b = at.load_b(axes_[axis]);
+            at.store(axes_[axis], {L::add(a.a, correction_a), L::add(a.b, correction_b)},
                      {L::subtract(b.a, correction_a), L::subtract(b.b, correction_b)});
         }
     }
@@ -460,23 +549,23 @@ private:
     }
 
     template <typename Access>
-    LKS_FORCE_INLINE void move_by_share(const Access& at, std::int64_t* const* axes, const G* d, const G& f,
-                                        const G& share_a, const G& share_b, const G& alike) const {
+    LKS_FORCE_INLINE void move_by_share(const Access& at, const G* d, const G& f, const G& share_a,
+                                        const G& share_b, const G& alike) const {
         const LongGain a_a = long_gain(share_a.a, f.a, alike.a);
         const LongGain a_b = long_gain(share_a.b, f.b, alike.b);
         const LongGain b_a = long_gain(share_b.a, f.a, alike.a);
         const LongGain b_b = long_gain(share_b.b, f.b, alike.b);
         for (int axis = 0; axis < 3; ++axis) {
-            const G a = at.load_a(axes[axis]);
-            const G b = at.load_b(axes[axis]);
-            at.store(axes[axis],
+            const G a = at.load_a(axes_[axis]);
+            const G b = at.load_b(axes_[axis]);
+            at.store(axes_[axis],
                      {L::add(a.a, long_product(d[axis].a, a_a)), L::add(a.b, long_product(d[axis].b, a_b))},
                      {L::subtract(b.a, long_product(d[axis].a, b_a)),
                       L::subtract(b.b, long_product(d[axis].b, b_b))});
         }
     }
 
-    const DistanceTask& task_;
+    DistanceTask task_; // a copy, so that what is stored can't be thought to change it
     typename L::Shift shift_;
     SignedShift<L> gain_shift_;
     SignedShift<L> rounded_gain_shift_;
@@ -486,72 +575,127 @@ private:
     SignedShift<L> product_shift_;
     bool plain_;
     R bias_;
-    R motion_bias_;
     R ratio_shift_;
     R gain_rounding_;
     R error_share_;
     R damping_share_;
     R length_shift_;
+    std::int64_t* axes_[3];
+    const std::int64_t* starts_[3];
 };
 
-template <typename L, bool equal_shares, bool soft, bool damped, bool multiplier>
-inline void project_in_groups(const DistanceTask& task) {
-    constexpr std::uint32_t lanes = 2 * L::half;
-    const DistanceGroups<L, equal_shares, soft, damped, multiplier> groups(task);
-    const Projection<equal_shares, soft, damped, multiplier> project_one(task);
-    ScatteredAccess<L> scattered;
-    const auto project_scattered = [&] {
-        // A group costs as much as two or three constraints by themselves.
-        bool done = false;
-        if (scattered.count > 2) {
-            scattered.fill_up();
-            done = groups.project(scattered);
+// Groups that are waiting to go through the stages together. They touch no common particle.
+template <typename L, typename Access, typename Groups, typename ProjectOne>
+class Stages {
+public:
+    Stages(const Groups& groups, const ProjectOne& project_one)
+        : groups_(groups), project_one_(project_one) {}
+
+    // Where the next one is to be written; then added.
+    Access& next() { return waiting_[count_]; }
+    LKS_FORCE_INLINE void add() {
+        if (++count_ == Access::together) {
+            project(groups_, waiting_, Access::together);
+            count_ = 0;
         }
-        if (!done) {
-            for (std::uint32_t i = 0; i < scattered.count; ++i) {
-                project_one(scattered.constraint[i], scattered.a[i], scattered.b[i]);
+    }
+    // Without waiting for others.
+    LKS_FORCE_INLINE void add_alone(const Access& at) const { project(groups_, &at, 1); }
+    LKS_NEVER_INLINE void finish() {
+        if (count_ != 0) {
+            project(groups_, waiting_, count_);
+        }
+    }
+
+private:
+    LKS_FORCE_INLINE void project(const Groups& groups, const Access* at, std::uint32_t count) const {
+        StagedGroup<L> staged[Access::together];
+        for (std::uint32_t i = 0; i < count; ++i) {
+            groups.find_differences(at[i], staged[i]);
+        }
+        for (std::uint32_t i = 0; i < count; ++i) {
+            groups.find_correction(at[i], staged[i]);
+        }
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (!staged[i].plain) {
+                groups.move(at[i], staged[i]);
+            } else {
+                at[i].for_each(project_one_);
             }
         }
-        scattered.count = 0;
-    };
-    const auto add = [&](std::uint32_t constraint, std::uint32_t a, std::uint32_t b) {
-        scattered.push(constraint, a, b);
-        if (scattered.count == lanes) {
-            project_scattered();
-        }
-    };
+    }
+
+    const Groups& groups_;
+    const ProjectOne& project_one_;
+    std::uint32_t count_ = 0;
+    Access waiting_[Access::together];
+};
+
+template <typename L, typename Groups, typename ProjectOne>
+inline void project_runs(const DistanceTask& task, const Groups& groups, const ProjectOne& project_one) {
+    constexpr std::uint32_t lanes = 2 * L::half;
+    Stages<L, RunAccess<L>, Groups, ProjectOne> stages(groups, project_one);
+    Stages<L, PartialAccess<L>, Groups, ProjectOne> ends(groups, project_one);
     visit_runs(task, [&](std::uint32_t constraint, std::uint32_t a, std::uint32_t b, std::uint32_t count,
                          std::uint32_t spare) {
         std::uint32_t i = 0;
         for (; i + lanes <= count; i += lanes) {
-            if (!groups.project(RunAccess<L>{constraint + i, a + i, b + i})) {
-                for (std::uint32_t lane = i; lane < i + lanes; ++lane) {
-                    project_one(constraint + lane, a + lane, b + lane);
-                }
+            if constexpr (L::together == 1) {
+                stages.add_alone({constraint + i, a + i, b + i});
+            } else {
+                stages.next() = {constraint + i, a + i, b + i};
+                stages.add();
             }
         }
-        const RunAccess<L> rest{constraint + i, a + i, b + i};
         const std::uint32_t left = count - i;
-        // Multipliers have nobody's lanes between them.
-        if (!multiplier && left != 0) {
-            if (left + spare >= lanes && groups.template project<false>(rest, left)) {
-                return;
+        if (left < L::worth_a_group) {
+            for (; i < count; ++i) {
+                project_one(constraint + i, a + i, b + i);
             }
-            // Lanes beyond its end are read, so nobody else may write them meanwhile.
-            if (task.whole_batch && left >= L::half &&
-                groups.template project<false>(TailAccess<L>{rest, left}, left)) {
-                return;
-            }
+            return;
         }
-        for (; i < count; ++i) {
-            add(constraint + i, a + i, b + i);
+        PartialAccess<L>& end = ends.next();
+        if (count > lanes) {
+            // The last `lanes` of it, of which some have been in a group already.
+            const std::uint32_t back = lanes - left;
+            end = {{constraint + i - back, a + i - back, b + i - back}, back, left, true, true};
+        } else {
+            const bool spares = left + spare >= lanes;
+            // Lanes behind the end are read, so nobody else may write them meanwhile.
+            end = {{constraint + i, a + i, b + i}, 0, left, spares || task.whole_batch, spares};
         }
+        ends.add();
     });
-    visit_singles(task, [&](std::uint32_t constraint) {
-        add(constraint, task.constraints[constraint].a, task.constraints[constraint].b);
-    });
-    if (scattered.count != 0) {
-        project_scattered();
+    stages.finish();
+    ends.finish();
+}
+
+template <typename L, typename Groups, typename ProjectOne>
+inline void project_singles(const DistanceTask& task, const Groups& groups, const ProjectOne& project_one) {
+    constexpr std::uint32_t lanes = 2 * L::half;
+    Stages<L, SinglesAccess<L>, Groups, ProjectOne> stages(groups, project_one);
+    std::uint32_t i = task.first_single < task.range.first ? task.range.first : task.first_single;
+    for (; i + L::worth_a_group <= task.range.last; i += lanes) {
+        const std::uint32_t left = task.range.last - i;
+        stages.next().take(task.constraints, i, left < lanes ? left : lanes);
+        stages.add();
+    }
+    stages.finish();
+    for (; i < task.range.last; ++i) {
+        project_one(i, task.constraints[i].a, task.constraints[i].b);
+    }
+}
+
+template <typename L, bool equal_shares, bool soft, bool damped, bool multiplier>
+inline void project_in_groups(const DistanceTask& task) {
+    using Groups = DistanceGroups<L, equal_shares, soft, damped, multiplier>;
+    const Groups groups(task);
+    const Projection<equal_shares, soft, damped, multiplier> project_one(task);
+    if (task.run_count != 0) {
+        project_runs<L>(task, groups, project_one);
+    }
+    if (task.first_single < task.range.last) {
+        project_singles<L>(task, groups, project_one);
     }
 }
 

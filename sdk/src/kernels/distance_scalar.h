@@ -10,6 +10,7 @@
 #include "fixed/formats.h"
 #include "fixed/projection_reciprocal_sqrt.h"
 #include "kernels/distance_task.h"
+#include "kernels/force_inline.h"
 #include "solver/wrapping.h"
 
 namespace lks {
@@ -19,9 +20,10 @@ inline std::int64_t shift_right_rounded(std::int64_t value, int shift) {
     return wrapping_add(value, std::int64_t{1} << (shift - 1)) >> shift;
 }
 
-// Within [-2^30, 2^30).
-inline bool fits_difference(std::int64_t value) {
-    return static_cast<std::uint64_t>(value + direction_one) < 2 * std::uint64_t{direction_one};
+// All within [-2^30, 2^30).
+inline bool fit_differences(std::int64_t x, std::int64_t y, std::int64_t z) {
+    return static_cast<std::uint64_t>((x + direction_one) | (y + direction_one) | (z + direction_one)) <
+           2 * std::uint64_t{direction_one};
 }
 
 // value · 2^left for left in -63 .. 63, wrapping.
@@ -40,20 +42,14 @@ struct NarrowDifference {
     int extra;
 };
 
-inline NarrowDifference narrow(const Difference& d, int shift) {
-    NarrowDifference result{shift_right_rounded(d.x, shift), shift_right_rounded(d.y, shift),
-                            shift_right_rounded(d.z, shift), 0};
-    if (fits_difference(result.x) && fits_difference(result.y) && fits_difference(result.z)) {
-        return result;
-    }
-    // A far edge. One's complement magnitudes: exact enough for a bit count, and defined for every value.
+// Of a far edge, of which a difference does not fit with `shift`.
+inline NarrowDifference narrow_far(const Difference& d, int shift) {
+    // One's complement magnitudes: exact enough for a bit count, and defined for every value.
     const std::int64_t largest = (d.x ^ (d.x >> 63)) | (d.y ^ (d.y >> 63)) | (d.z ^ (d.z >> 63));
     // One bit of room for the rounding: |d| < 2^30 afterwards.
-    result.extra = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(largest))) - 30 - shift;
-    result.x = shift_right_rounded(d.x, shift + result.extra);
-    result.y = shift_right_rounded(d.y, shift + result.extra);
-    result.z = shift_right_rounded(d.z, shift + result.extra);
-    return result;
+    const int extra = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(largest))) - 30 - shift;
+    return {shift_right_rounded(d.x, shift + extra), shift_right_rounded(d.y, shift + extra),
+            shift_right_rounded(d.z, shift + extra), extra};
 }
 
 // value / len in Direction format, where 1/len = y·2^(k−62); |value| ≤ 2^31.
@@ -84,7 +80,26 @@ public:
         const Difference wide{wrapping_subtract(arrays_.x[a], arrays_.x[b]),
                               wrapping_subtract(arrays_.y[a], arrays_.y[b]),
                               wrapping_subtract(arrays_.z[a], arrays_.z[b])};
-        const NarrowDifference d = narrow(wide, parameters_.difference_shift);
+        const int shift = parameters_.difference_shift;
+        const std::int64_t x = shift_right_rounded(wide.x, shift);
+        const std::int64_t y = shift_right_rounded(wide.y, shift);
+        const std::int64_t z = shift_right_rounded(wide.z, shift);
+        if (fit_differences(x, y, z)) {
+            project(constraint, a, b, NarrowDifference{x, y, z, 0});
+        } else {
+            project_far(constraint, a, b, wide);
+        }
+    }
+
+private:
+    // By itself, so that what nearly all edges take has no shifts that it doesn't need.
+    LKS_NEVER_INLINE void project_far(std::uint32_t constraint, std::uint32_t a, std::uint32_t b,
+                                      const Difference& wide) const {
+        project(constraint, a, b, narrow_far(wide, parameters_.difference_shift));
+    }
+
+    LKS_FORCE_INLINE void project(std::uint32_t constraint, std::uint32_t a, std::uint32_t b,
+                                  const NarrowDifference& d) const {
         const std::uint64_t u = static_cast<std::uint64_t>(d.x * d.x) +
                                 static_cast<std::uint64_t>(d.y * d.y) + static_cast<std::uint64_t>(d.z * d.z);
         if (u == 0) {
@@ -99,7 +114,7 @@ public:
             direction_one;
         const int scale = parameters_.difference_shift + d.extra;
         if constexpr (soft) {
-            f = soft_correction(f, constraint, a, b, d, y, k, scale);
+            f = soft_correction(f, constraint, a, b, d, u, y, k, scale);
         }
         if constexpr (multiplier) {
             arrays_.multipliers[constraint] =
@@ -108,14 +123,13 @@ public:
         apply(constraint, a, b, d, f);
     }
 
-private:
     // f in Direction format from the relative error g = L/len − 1.
     std::int64_t soft_correction(std::int64_t g, std::uint32_t constraint, std::uint32_t a, std::uint32_t b,
-                                 const NarrowDifference& d, std::uint32_t y, int k, int scale) const {
+                                 const NarrowDifference& d, std::uint64_t u, std::uint32_t y, int k,
+                                 int scale) const {
         std::int64_t f = g;
         if constexpr (damped) {
-            const std::int64_t motion = std::clamp<std::int64_t>(
-                over_length(normal_motion(a, b, d, y, k, scale), y, k), -INT32_MAX, INT32_MAX);
+            const std::int64_t motion = relative_motion(a, b, d, u, y, k, scale);
             f = shift_right_rounded(static_cast<std::int64_t>(parameters_.error_share) * g -
                                         static_cast<std::int64_t>(parameters_.damping_share) * motion,
                                     unit_fraction_bits);
@@ -130,21 +144,25 @@ private:
         return std::clamp<std::int64_t>(f, -direction_one, direction_one);
     }
 
-    // n·(Δx_a − Δx_b) since the start of the substep, in difference units.
-    std::int64_t normal_motion(std::uint32_t a, std::uint32_t b, const NarrowDifference& d, std::uint32_t y,
-                               int k, int scale) const {
-        constexpr std::int64_t limit = std::int64_t{1} << 29; // keeps the dot product within 64 bits
-        const auto motion = [&](const std::int64_t* now, const std::int64_t* start) {
-            const std::int64_t difference =
-                wrapping_subtract(wrapping_subtract(now[a], now[b]), wrapping_subtract(start[a], start[b]));
-            return std::clamp(shift_right_rounded(difference, scale), -limit, limit);
+    // n·(Δx_a − Δx_b) / len since the start of the substep in Direction format, within ±3/2: with d and the
+    // same difference at the start, d·(d − d_start) / u.
+    std::int64_t relative_motion(std::uint32_t a, std::uint32_t b, const NarrowDifference& d, std::uint64_t u,
+                                 std::uint32_t y, int k, int scale) const {
+        const auto start_difference = [&](const std::int64_t* start) {
+            return std::clamp<std::int64_t>(shift_right_rounded(wrapping_subtract(start[a], start[b]), scale),
+                                            -direction_one, direction_one - 1);
         };
-        const std::int64_t dot = d.x * motion(arrays_.x, arrays_.start_x) +
-                                 d.y * motion(arrays_.y, arrays_.start_y) +
-                                 d.z * motion(arrays_.z, arrays_.start_z);
-        // |dot| ≤ len·|motion| with len < 2^(32−k): the shift leaves at most 31 bits, and y brings 31 more.
-        // Rounded: a floor would damp what does not move.
-        return shift_right_rounded(shift_right_rounded(dot, 32 - k) * static_cast<std::int64_t>(y), 30);
+        const auto squared = static_cast<std::int64_t>(u); // below 2^62, so that k ≥ 1
+        const std::int64_t limit = squared + (squared >> 1);
+        const std::int64_t dot =
+            std::clamp(squared - d.x * start_difference(arrays_.start_x) -
+                           d.y * start_difference(arrays_.start_y) - d.z * start_difference(arrays_.start_z),
+                       -limit, limit);
+        // Below 3/4·2^63. u is m·2^(62 − 2k) with m in [1, 4), and y² is 1/m: rounded, as a floor would damp
+        // what does not move.
+        const std::int64_t aligned = shift_right_rounded(dot * (std::int64_t{1} << (2 * k - 2)), 32);
+        const auto reciprocal = static_cast<std::int64_t>(std::uint64_t{y} * y >> 32);
+        return shift_right_rounded(aligned * reciprocal, 28);
     }
 
     // f·len in Coordinate format, rounded down.

@@ -27,7 +27,7 @@ struct DistanceParameters {
     std::int32_t rest_exponent;
     std::int32_t gain_shift;    // Unit × Direction product to gain, 31 .. 41
     std::int32_t product_shift; // gain × difference product to Coordinate
-    std::uint32_t error_share;
+    std::uint32_t error_share;  // c and γ', together at most one
     std::uint32_t damping_share;
 };
 
@@ -42,6 +42,7 @@ struct DistanceTask {
     const Run* runs; // those that reach into the range, in order, and then perhaps others
     std::uint32_t run_count;
     bool whole_batch;           // the range is all of it: nobody else is at work on the batch
+    bool short_runs;            // of less than widest_group constraints on the average of the batch
     std::uint32_t first_single; // constraint: from here on its ends are in `constraints`
     const Constraint* constraints;
     // By constraint.

@@ -4,6 +4,8 @@
 
 #if defined(_MSC_VER)
 #define LKS_FORCE_INLINE __forceinline
+#define LKS_NEVER_INLINE __declspec(noinline)
 #else
 #define LKS_FORCE_INLINE inline __attribute__((always_inline))
+#define LKS_NEVER_INLINE __attribute__((noinline))
 #endif

@@ -6,16 +6,17 @@
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
 #include "kernels/lanes_avx2.h"
+#include "kernels/leave_lanes.h"
 #include "kernels/prediction_lanes.h"
 
 namespace lks {
 
 const Kernels kernels_avx2{LKS_SIMD_AVX2,
-                           project_lanes<LanesAvx2>,
-                           predict_lanes<LanesAvx2>,
-                           near_box_lanes<LanesAvx2>,
-                           near_plane_lanes<LanesAvx2>,
-                           hash_update};
+                           leaving<LanesAvx2, project_lanes<LanesAvx2>>,
+                           leaving<LanesAvx2, predict_lanes<LanesAvx2>>,
+                           leaving<LanesAvx2, near_box_lanes<LanesAvx2>>,
+                           leaving<LanesAvx2, near_plane_lanes<LanesAvx2>>,
+                           leaving<LanesAvx2, hash_update>};
 
 } // namespace lks
 

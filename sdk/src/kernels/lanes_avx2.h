@@ -10,6 +10,11 @@ namespace {
 
 struct LanesAvx2 {
     static constexpr std::uint32_t half = 4;
+    // Groups that go through the stages together.
+    static constexpr std::uint32_t together = 4;
+    static constexpr std::uint32_t singles_together = 8;
+    // Fewer constraints are faster by themselves than as part of a group.
+    static constexpr std::uint32_t worth_a_group = 3;
     using Register = __m256i;
     using Shift = __m128i;
     static constexpr bool has_signed_shift = false;
@@ -21,11 +26,13 @@ struct LanesAvx2 {
     static Register load_widened(const std::uint32_t* p) {
         return _mm256_cvtepu32_epi64(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
     }
+    // Every other index of `at`.
     static Register gather(const std::int64_t* p, const std::uint32_t* at) {
-        return _mm256_set_epi64x(p[at[3]], p[at[2]], p[at[1]], p[at[0]]);
+        return _mm256_set_epi64x(p[at[6]], p[at[4]], p[at[2]], p[at[0]]);
     }
-    static Register gather_widened(const std::uint32_t* p, const std::uint32_t* at) {
-        return _mm256_set_epi64x(p[at[3]], p[at[2]], p[at[1]], p[at[0]]);
+    static void scatter(std::int64_t* p, const std::uint32_t* at, Register v) {
+        scatter_pair(p, at, _mm256_castsi256_si128(v));
+        scatter_pair(p, at + 4, _mm256_extracti128_si256(v, 1));
     }
     static Register set(std::int64_t value) { return _mm256_set1_epi64x(value); }
     static Register set_32(std::int32_t value) { return _mm256_set1_epi32(value); }
@@ -110,6 +117,14 @@ struct LanesAvx2 {
     static bool any(Register v) { return _mm256_testz_si256(v, v) == 0; }
     // Every bit is set.
     static bool all(Register v) { return _mm256_testc_si256(v, _mm256_set1_epi32(-1)) != 0; }
+
+    static void leave() { _mm256_zeroupper(); }
+
+private:
+    static void scatter_pair(std::int64_t* p, const std::uint32_t* at, __m128i v) {
+        _mm_storel_epi64(reinterpret_cast<__m128i*>(p + at[0]), v);
+        _mm_storeh_pi(reinterpret_cast<__m64*>(p + at[2]), _mm_castsi128_ps(v));
+    }
 };
 
 } // namespace

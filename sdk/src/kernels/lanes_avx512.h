@@ -10,6 +10,11 @@ namespace {
 
 struct LanesAvx512 {
     static constexpr std::uint32_t half = 8;
+    // Groups that go through the stages together.
+    static constexpr std::uint32_t together = 3;
+    static constexpr std::uint32_t singles_together = 8;
+    // Fewer constraints are faster by themselves than as part of a group.
+    static constexpr std::uint32_t worth_a_group = 3;
     using Register = __m512i;
     using Shift = __m128i;
     static constexpr bool has_signed_shift = true;
@@ -19,13 +24,16 @@ struct LanesAvx512 {
     static Register load_widened(const std::uint32_t* p) {
         return _mm512_cvtepu32_epi64(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
     }
+    // Every other index of `at`.
     static Register gather(const std::int64_t* p, const std::uint32_t* at) {
-        return _mm512_set_epi64(p[at[7]], p[at[6]], p[at[5]], p[at[4]], p[at[3]], p[at[2]], p[at[1]],
+        return _mm512_set_epi64(p[at[14]], p[at[12]], p[at[10]], p[at[8]], p[at[6]], p[at[4]], p[at[2]],
                                 p[at[0]]);
     }
-    static Register gather_widened(const std::uint32_t* p, const std::uint32_t* at) {
-        return _mm512_set_epi64(p[at[7]], p[at[6]], p[at[5]], p[at[4]], p[at[3]], p[at[2]], p[at[1]],
-                                p[at[0]]);
+    static void scatter(std::int64_t* p, const std::uint32_t* at, Register v) {
+        scatter_pair(p, at, _mm512_castsi512_si128(v));
+        scatter_pair(p, at + 4, _mm512_extracti64x2_epi64(v, 1));
+        scatter_pair(p, at + 8, _mm512_extracti64x2_epi64(v, 2));
+        scatter_pair(p, at + 12, _mm512_extracti64x2_epi64(v, 3));
     }
     static Register set(std::int64_t value) { return _mm512_set1_epi64(value); }
     static Register set_32(std::int32_t value) { return _mm512_set1_epi32(value); }
@@ -105,6 +113,14 @@ struct LanesAvx512 {
     static bool any(Register v) { return _mm512_test_epi64_mask(v, v) != 0; }
     // Every bit is set.
     static bool all(Register v) { return _mm512_cmpneq_epi64_mask(v, _mm512_set1_epi64(-1)) == 0; }
+
+    static void leave() { _mm256_zeroupper(); }
+
+private:
+    static void scatter_pair(std::int64_t* p, const std::uint32_t* at, __m128i v) {
+        _mm_storel_epi64(reinterpret_cast<__m128i*>(p + at[0]), v);
+        _mm_storeh_pi(reinterpret_cast<__m64*>(p + at[2]), _mm_castsi128_ps(v));
+    }
 };
 
 } // namespace

@@ -10,6 +10,11 @@ namespace {
 
 struct LanesNeon {
     static constexpr std::uint32_t half = 2;
+    // Groups that go through the stages together.
+    static constexpr std::uint32_t together = 4;
+    static constexpr std::uint32_t singles_together = 4;
+    // Fewer constraints are faster by themselves than as part of a group.
+    static constexpr std::uint32_t worth_a_group = 3;
     using Register = uint64x2_t;
     using Shift = int64x2_t; // to the left: negative
     static constexpr bool has_signed_shift = true;
@@ -17,12 +22,14 @@ struct LanesNeon {
     static Register load(const std::int64_t* p) { return vreinterpretq_u64_s64(vld1q_s64(p)); }
     static void store(std::int64_t* p, Register v) { vst1q_s64(p, vreinterpretq_s64_u64(v)); }
     static Register load_widened(const std::uint32_t* p) { return vmovl_u32(vld1_u32(p)); }
+    // Every other index of `at`.
     static Register gather(const std::int64_t* p, const std::uint32_t* at) {
         return vcombine_u64(vcreate_u64(static_cast<std::uint64_t>(p[at[0]])),
-                            vcreate_u64(static_cast<std::uint64_t>(p[at[1]])));
+                            vcreate_u64(static_cast<std::uint64_t>(p[at[2]])));
     }
-    static Register gather_widened(const std::uint32_t* p, const std::uint32_t* at) {
-        return vcombine_u64(vcreate_u64(p[at[0]]), vcreate_u64(p[at[1]]));
+    static void scatter(std::int64_t* p, const std::uint32_t* at, Register v) {
+        p[at[0]] = static_cast<std::int64_t>(vgetq_lane_u64(v, 0));
+        p[at[2]] = static_cast<std::int64_t>(vgetq_lane_u64(v, 1));
     }
     static Register set(std::int64_t value) { return vdupq_n_u64(static_cast<std::uint64_t>(value)); }
     static Register set_32(std::int32_t value) { return from_32(vdupq_n_s32(value)); }

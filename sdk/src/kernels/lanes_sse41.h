@@ -10,6 +10,11 @@ namespace {
 
 struct LanesSse41 {
     static constexpr std::uint32_t half = 2;
+    // Groups that go through the stages together.
+    static constexpr std::uint32_t together = 4;
+    static constexpr std::uint32_t singles_together = 8;
+    // Fewer constraints are faster by themselves than as part of a group.
+    static constexpr std::uint32_t worth_a_group = 3;
     using Register = __m128i;
     using Shift = __m128i;
     static constexpr bool has_signed_shift = false;
@@ -21,11 +26,13 @@ struct LanesSse41 {
     static Register load_widened(const std::uint32_t* p) {
         return _mm_cvtepu32_epi64(_mm_loadl_epi64(reinterpret_cast<const Register*>(p)));
     }
+    // Every other index of `at`.
     static Register gather(const std::int64_t* p, const std::uint32_t* at) {
-        return _mm_set_epi64x(p[at[1]], p[at[0]]);
+        return _mm_set_epi64x(p[at[2]], p[at[0]]);
     }
-    static Register gather_widened(const std::uint32_t* p, const std::uint32_t* at) {
-        return _mm_set_epi64x(p[at[1]], p[at[0]]);
+    static void scatter(std::int64_t* p, const std::uint32_t* at, Register v) {
+        _mm_storel_epi64(reinterpret_cast<__m128i*>(p + at[0]), v);
+        _mm_storeh_pi(reinterpret_cast<__m64*>(p + at[2]), _mm_castsi128_ps(v));
     }
     static Register set(std::int64_t value) { return _mm_set1_epi64x(value); }
     static Register set_32(std::int32_t value) { return _mm_set1_epi32(value); }

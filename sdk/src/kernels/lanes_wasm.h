@@ -10,6 +10,11 @@ namespace {
 
 struct LanesWasm {
     static constexpr std::uint32_t half = 2;
+    // Groups that go through the stages together.
+    static constexpr std::uint32_t together = 4;
+    static constexpr std::uint32_t singles_together = 4;
+    // Fewer constraints are faster by themselves than as part of a group.
+    static constexpr std::uint32_t worth_a_group = 3;
     using Register = v128_t;
     using Shift = std::uint32_t;
     // There is one, but x86 before AVX-512 has none, and engines make it of several instructions.
@@ -18,11 +23,13 @@ struct LanesWasm {
     static Register load(const std::int64_t* p) { return wasm_v128_load(p); }
     static void store(std::int64_t* p, Register v) { wasm_v128_store(p, v); }
     static Register load_widened(const std::uint32_t* p) { return wasm_u64x2_load32x2(p); }
+    // Every other index of `at`.
     static Register gather(const std::int64_t* p, const std::uint32_t* at) {
-        return wasm_i64x2_make(p[at[0]], p[at[1]]);
+        return wasm_i64x2_make(p[at[0]], p[at[2]]);
     }
-    static Register gather_widened(const std::uint32_t* p, const std::uint32_t* at) {
-        return wasm_i64x2_make(p[at[0]], p[at[1]]);
+    static void scatter(std::int64_t* p, const std::uint32_t* at, Register v) {
+        wasm_v128_store64_lane(p + at[0], v, 0);
+        wasm_v128_store64_lane(p + at[2], v, 1);
     }
     static Register set(std::int64_t value) { return wasm_i64x2_splat(value); }
     static Register set_32(std::int32_t value) { return wasm_i32x4_splat(value); }

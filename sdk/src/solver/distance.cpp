@@ -43,8 +43,9 @@ void project_distances(const lks_asset& asset, const Coefficients& coefficients,
     kernels.project_distances(
         DistanceTask{range, asset.runs.data() + first_run, batch.first_run + batch.run_count - first_run,
                      range.first == batch.first && range.last == batch.first + batch.count,
-                     batch.first_single, asset.constraints.data(), asset.rest_mantissas.data(),
-                     coefficients.shares_a.data(), coefficients.shares_b.data(),
+                     batch.first_single - batch.first < batch.run_count * widest_group, batch.first_single,
+                     asset.constraints.data(), asset.rest_mantissas.data(), coefficients.shares_a.data(),
+                     coefficients.shares_b.data(),
                      coefficients.relaxations.empty() ? nullptr : coefficients.relaxations.data(),
                      distance_parameters(batch, batch_coefficients, family), arrays,
                      batch_coefficients.equal_shares, family.soft, family.damping_share != 0});

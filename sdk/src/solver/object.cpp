@@ -3,6 +3,19 @@
 #include <algorithm>
 
 namespace lks {
+namespace {
+
+// Axes begin at cache lines, and those of large objects not at the same place of a 4 kB page, where
+// processors take a load from one for a load of what was just stored to another.
+std::size_t axis_stride(std::size_t count) {
+    constexpr std::size_t line = 8;
+    constexpr std::size_t page = 512;
+    constexpr std::size_t offset = 11 * line;
+    const std::size_t whole = (count + line - 1) / line * line;
+    return whole < 2 * page ? whole : (whole - offset + page - 1) / page * page + offset;
+}
+
+} // namespace
 
 Object::Object(const lks_allocator& allocator, const lks_asset& asset, const Coefficients& shared)
     : particles(allocator), multipliers(allocator), recorded_pins(allocator), previous(allocator),
@@ -18,9 +31,18 @@ Object::~Object() {
 bool Object::allocate(bool with_forces, bool need_multipliers, bool keep_previous) {
     record_forces = with_forces;
     const std::size_t n = count();
-    return particles.reserve(6 * n + widest_group - 1) && particles.resize(6 * n) &&
+    axis_stride_ = axis_stride(n);
+    return particles.resize(axis_count * axis_stride_ + widest_group) &&
            (!need_multipliers || multipliers.resize(asset_->constraints.size())) &&
            (!keep_previous || previous.resize(3 * n));
+}
+
+void Object::keep_previous() {
+    if (!previous.empty()) {
+        for (int i = 0; i < 3; ++i) {
+            std::copy_n(axis(i), count(), previous.data() + static_cast<std::size_t>(i) * count());
+        }
+    }
 }
 
 const Pin* Object::find_pin(std::uint32_t particle) const {

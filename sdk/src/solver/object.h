@@ -24,6 +24,9 @@ struct Bounds {
     fixed::Vec3 high;
 };
 
+// Position and start of the substep, x, y, z each.
+inline constexpr int axis_count = 6;
+
 class Object {
 public:
     Object(const lks_allocator& allocator, const lks_asset& asset, const Coefficients& shared);
@@ -31,15 +34,20 @@ public:
     Object(const Object&) = delete;
     Object& operator=(const Object&) = delete;
 
+    // Takes down where the particles are, for views.
+    void keep_previous();
+
     // All memory that the object needs while nothing is pinned. False: none left.
     [[nodiscard]] bool allocate(bool record_forces, bool need_multipliers, bool keep_previous);
 
     const lks_asset& asset() const { return *asset_; }
     std::uint32_t count() const { return asset_->vertex_count(); }
 
-    std::int64_t* axis(int index) { return particles.data() + static_cast<std::size_t>(index) * count(); }
+    std::int64_t* axis(int index) {
+        return particles.data() + static_cast<std::size_t>(index) * axis_stride_;
+    }
     const std::int64_t* axis(int index) const {
-        return particles.data() + static_cast<std::size_t>(index) * count();
+        return particles.data() + static_cast<std::size_t>(index) * axis_stride_;
     }
     std::int64_t* start_axis(int index) { return axis(index + 3); }
     const std::int64_t* start_axis(int index) const { return axis(index + 3); }
@@ -90,8 +98,9 @@ public:
     std::int64_t gravity_factor = 0; // World
     std::int64_t linear_damping = 0; // World, 1/s
     bool record_forces = false;
-    Array<std::int64_t> particles; // x, y, z, then the starts of x, y, z: six arrays of count(), Coordinate;
-                                   // room behind for kernels
+    // x, y, z, then the starts of x, y, z, Coordinate: axis() says where each begins. State is only their
+    // first count() values; kernels read, and write back, some behind.
+    Array<std::int64_t> particles;
     Array<std::int64_t> multipliers; // Λ by constraint, Coordinate; state only where forces are recorded
 
     // Where forces are recorded: the particles that were pinned in the last tick, whose forces multipliers
@@ -108,6 +117,7 @@ private:
     void follow_pins(const StepRate& rate);
 
     const lks_asset* asset_;
+    std::size_t axis_stride_ = 0;
     const Coefficients* shared_;
     Coefficients own_;
     bool owns_coefficients_ = false;

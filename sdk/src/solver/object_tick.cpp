@@ -29,7 +29,7 @@ public:
     void run() {
         Bounds bounds = object_.bounds();
         follow_object(object_, bounds, scratch_.counters);
-        keep_previous();
+        object_.keep_previous();
         begin_pin_motion(object_);
         object_.record_pins();
         find_candidates(bounds);
@@ -39,10 +39,6 @@ public:
     }
 
 private:
-    void keep_previous() {
-        std::copy_n(object_.particles.data(), object_.previous.size(), object_.previous.data());
-    }
-
     // Colliders that the object can reach in this tick at its speed limit; each substep looks at its true
     // bounds again.
     void find_candidates(Bounds bounds) {

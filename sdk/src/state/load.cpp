@@ -319,7 +319,9 @@ private:
         object.linear_damping = image.linear_damping;
         object.origin = image.origin;
         object.replace_pins(world_.rate, image.pin_count, [&in] { return read_pin(in); });
-        in.i64_array(object.particles.data(), object.particles.size());
+        for (int i = 0; i < axis_count; ++i) {
+            in.i64_array(object.axis(i), object.count());
+        }
         if (object.record_forces) {
             in.i64_array(object.multipliers.data(), object.multipliers.size());
             object.recorded_pins.clear();
@@ -328,7 +330,7 @@ private:
             }
         }
         // There is no tick before for the view to start from.
-        std::copy_n(object.particles.data(), object.previous.size(), object.previous.data());
+        object.keep_previous();
     }
 
     lks_world& world_;

@@ -18,7 +18,8 @@ void write_rotation(ByteWriter& out, const fixed::Rotation& value) {
 }
 
 std::size_t object_size(const Object& object) {
-    return image_object_size + object.pins().size() * image_pin_size + object.particles.bytes() +
+    return image_object_size + object.pins().size() * image_pin_size +
+           axis_count * std::size_t{object.count()} * sizeof(std::int64_t) +
            (object.record_forces ? object.multipliers.bytes() : 0) +
            object.recorded_pins.size() * sizeof(std::uint64_t);
 }
@@ -37,7 +38,9 @@ void write_object(ByteWriter& out, const Object& object) {
         out.u64(pin.particle);
         write_vector(out, {pin.target.x, pin.target.y, pin.target.z});
     }
-    out.i64_array(object.particles.data(), object.particles.size());
+    for (int i = 0; i < axis_count; ++i) {
+        out.i64_array(object.axis(i), object.count());
+    }
     if (object.record_forces) {
         out.i64_array(object.multipliers.data(), object.multipliers.size());
         for (const std::uint32_t particle : object.recorded_pins) {

@@ -48,7 +48,9 @@ std::uint64_t hash_object(const Object& object, const Kernels& kernels) {
         hash.add_u64(pin.particle);
         add_vector(hash, {pin.target.x, pin.target.y, pin.target.z});
     }
-    hash.add_i64_array(object.particles.data(), object.particles.size());
+    for (int i = 0; i < axis_count; ++i) {
+        hash.add_i64_array(object.axis(i), object.count());
+    }
     if (object.record_forces) {
         hash.add_i64_array(object.multipliers.data(), object.multipliers.size());
         hash.add_u32_array(object.recorded_pins.data(), object.recorded_pins.size());
