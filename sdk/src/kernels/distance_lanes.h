@@ -19,6 +19,15 @@ struct Group {
     typename L::Register a, b;
 };
 
+template <typename L>
+struct LaneValues {
+    LKS_FORCE_INLINE explicit LaneValues(const Group<L>& group) {
+        L::store(values, group.a);
+        L::store(values + L::half, group.b);
+    }
+    std::int64_t values[2 * L::half];
+};
+
 // All bits in the first lanes that are loaded from widest_group on, and none before and behind.
 constexpr std::int64_t lane_bits[3 * widest_group] = {0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,
                                                       0,  0,  0,  0,  0,  -1, -1, -1, -1, -1, -1,
@@ -47,11 +56,14 @@ struct RunAccess {
     LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
         return {L::load(x + b), L::load(x + b + L::half)};
     }
-    LKS_FORCE_INLINE void store(std::int64_t* x, const Group<L>& at_a, const Group<L>& at_b) const {
-        L::store(x + a, at_a.a);
-        L::store(x + a + L::half, at_a.b);
-        L::store(x + b, at_b.a);
-        L::store(x + b + L::half, at_b.b);
+    // x_a += plus_a, x_b −= minus_b.
+    LKS_FORCE_INLINE void move(std::int64_t* x, const Group<L>& plus_a, const Group<L>& minus_b) const {
+        const Group<L> at_a = load_a(x);
+        const Group<L> at_b = load_b(x);
+        L::store(x + a, L::add(at_a.a, plus_a.a));
+        L::store(x + a + L::half, L::add(at_a.b, plus_a.b));
+        L::store(x + b, L::subtract(at_b.a, minus_b.a));
+        L::store(x + b + L::half, L::subtract(at_b.b, minus_b.b));
     }
     LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
         return {L::load(values + constraint), L::load(values + constraint + L::half)};
@@ -88,12 +100,16 @@ struct PartialAccess {
     LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
         return loads_whole ? run.load_b(x) : load_lanes(x + run.b);
     }
-    LKS_FORCE_INLINE void store(std::int64_t* x, const Group<L>& at_a, const Group<L>& at_b) const {
+    LKS_FORCE_INLINE void move(std::int64_t* x, const Group<L>& plus_a, const Group<L>& minus_b) const {
         if (stores_whole) {
-            run.store(x, at_a, at_b);
-        } else {
-            store_lanes(x + run.a, at_a);
-            store_lanes(x + run.b, at_b);
+            run.move(x, plus_a, minus_b);
+            return;
+        }
+        const LaneValues<L> a(plus_a);
+        const LaneValues<L> b(minus_b);
+        for (std::uint32_t lane = first; lane < first + count; ++lane) {
+            x[run.a + lane] = wrapping_add(x[run.a + lane], a.values[lane]);
+            x[run.b + lane] = wrapping_subtract(x[run.b + lane], b.values[lane]);
         }
     }
     LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
@@ -120,11 +136,9 @@ private:
         return {L::load(values), L::load(values + L::half)};
     }
     void store_lanes(std::int64_t* x, const Group<L>& group) const {
-        std::int64_t values[2 * L::half];
-        L::store(values, group.a);
-        L::store(values + L::half, group.b);
+        const LaneValues<L> lanes(group);
         for (std::uint32_t lane = first; lane < first + count; ++lane) {
-            x[lane] = values[lane];
+            x[lane] = lanes.values[lane];
         }
     }
 };
@@ -161,15 +175,12 @@ struct SinglesAccess {
     LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
         return {L::gather(x, &ends[0].b), L::gather(x, &ends[L::half].b)};
     }
-    LKS_FORCE_INLINE void store(std::int64_t* x, const Group<L>& at_a, const Group<L>& at_b) const {
-        if (count == lanes) {
-            L::scatter(x, &ends[0].a, at_a.a);
-            L::scatter(x, &ends[L::half].a, at_a.b);
-            L::scatter(x, &ends[0].b, at_b.a);
-            L::scatter(x, &ends[L::half].b, at_b.b);
-        } else {
-            store_lanes(x, at_a, [](const Constraint& c) { return c.a; });
-            store_lanes(x, at_b, [](const Constraint& c) { return c.b; });
+    LKS_FORCE_INLINE void move(std::int64_t* x, const Group<L>& plus_a, const Group<L>& minus_b) const {
+        const LaneValues<L> a(plus_a);
+        const LaneValues<L> b(minus_b);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            x[ends[i].a] = wrapping_add(x[ends[i].a], a.values[i]);
+            x[ends[i].b] = wrapping_subtract(x[ends[i].b], b.values[i]);
         }
     }
     LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
@@ -180,26 +191,13 @@ struct SinglesAccess {
         return {L::load(parts), L::load(parts + L::half)};
     }
     LKS_FORCE_INLINE void store_wide(std::int64_t* values, const Group<L>& group) const {
-        std::int64_t parts[lanes];
-        L::store(parts, group.a);
-        L::store(parts + L::half, group.b);
+        const LaneValues<L> parts(group);
         for (std::uint32_t i = 0; i < count; ++i) {
-            values[constraint + i] = parts[i];
+            values[constraint + i] = parts.values[i];
         }
     }
     LKS_FORCE_INLINE Group<L> load(const std::uint32_t* values) const {
         return {L::load_widened(values + constraint), L::load_widened(values + constraint + L::half)};
-    }
-
-private:
-    template <typename End>
-    void store_lanes(std::int64_t* x, const Group<L>& group, const End& end) const {
-        std::int64_t values[lanes];
-        L::store(values, group.a);
-        L::store(values + L::half, group.b);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            x[end(ends[i])] = values[i];
-        }
     }
 };
 
@@ -517,10 +515,7 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             const R correction_a = to_coordinate(L::multiply_signed(d[axis].a, gain.a));
             const R correction_b = to_coordinate(L::multiply_signed(d[axis].b, gain.b));
-            const G a = at.load_a(axes_[axis]);
-            const G b = at.load_b(axes_[axis]);
-            at.store(axes_[axis], {L::add(a.a, correction_a), L::add(a.b, correction_b)},
-                     {L::subtract(b.a, correction_a), L::subtract(b.b, correction_b)});
+            at.move(axes_[axis], {correction_a, correction_b}, {correction_a, correction_b});
         }
     }
 
@@ -556,12 +551,8 @@ private:
         const LongGain b_a = long_gain(share_b.a, f.a, alike.a);
         const LongGain b_b = long_gain(share_b.b, f.b, alike.b);
         for (int axis = 0; axis < 3; ++axis) {
-            const G a = at.load_a(axes_[axis]);
-            const G b = at.load_b(axes_[axis]);
-            at.store(axes_[axis],
-                     {L::add(a.a, long_product(d[axis].a, a_a)), L::add(a.b, long_product(d[axis].b, a_b))},
-                     {L::subtract(b.a, long_product(d[axis].a, b_a)),
-                      L::subtract(b.b, long_product(d[axis].b, b_b))});
+            at.move(axes_[axis], {long_product(d[axis].a, a_a), long_product(d[axis].b, a_b)},
+                    {long_product(d[axis].a, b_a), long_product(d[axis].b, b_b)});
         }
     }
 

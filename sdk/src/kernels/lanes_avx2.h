@@ -30,10 +30,6 @@ struct LanesAvx2 {
     static Register gather(const std::int64_t* p, const std::uint32_t* at) {
         return _mm256_set_epi64x(p[at[6]], p[at[4]], p[at[2]], p[at[0]]);
     }
-    static void scatter(std::int64_t* p, const std::uint32_t* at, Register v) {
-        scatter_pair(p, at, _mm256_castsi256_si128(v));
-        scatter_pair(p, at + 4, _mm256_extracti128_si256(v, 1));
-    }
     static Register set(std::int64_t value) { return _mm256_set1_epi64x(value); }
     static Register set_32(std::int32_t value) { return _mm256_set1_epi32(value); }
     static Shift make_shift(int count) { return _mm_cvtsi32_si128(count); }
@@ -119,12 +115,6 @@ struct LanesAvx2 {
     static bool all(Register v) { return _mm256_testc_si256(v, _mm256_set1_epi32(-1)) != 0; }
 
     static void leave() { _mm256_zeroupper(); }
-
-private:
-    static void scatter_pair(std::int64_t* p, const std::uint32_t* at, __m128i v) {
-        _mm_storel_epi64(reinterpret_cast<__m128i*>(p + at[0]), v);
-        _mm_storeh_pi(reinterpret_cast<__m64*>(p + at[2]), _mm_castsi128_ps(v));
-    }
 };
 
 } // namespace

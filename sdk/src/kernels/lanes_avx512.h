@@ -29,12 +29,6 @@ struct LanesAvx512 {
         return _mm512_set_epi64(p[at[14]], p[at[12]], p[at[10]], p[at[8]], p[at[6]], p[at[4]], p[at[2]],
                                 p[at[0]]);
     }
-    static void scatter(std::int64_t* p, const std::uint32_t* at, Register v) {
-        scatter_pair(p, at, _mm512_castsi512_si128(v));
-        scatter_pair(p, at + 4, _mm512_extracti64x2_epi64(v, 1));
-        scatter_pair(p, at + 8, _mm512_extracti64x2_epi64(v, 2));
-        scatter_pair(p, at + 12, _mm512_extracti64x2_epi64(v, 3));
-    }
     static Register set(std::int64_t value) { return _mm512_set1_epi64(value); }
     static Register set_32(std::int32_t value) { return _mm512_set1_epi32(value); }
     static Shift make_shift(int count) { return _mm_cvtsi32_si128(count); }
@@ -115,12 +109,6 @@ struct LanesAvx512 {
     static bool all(Register v) { return _mm512_cmpneq_epi64_mask(v, _mm512_set1_epi64(-1)) == 0; }
 
     static void leave() { _mm256_zeroupper(); }
-
-private:
-    static void scatter_pair(std::int64_t* p, const std::uint32_t* at, __m128i v) {
-        _mm_storel_epi64(reinterpret_cast<__m128i*>(p + at[0]), v);
-        _mm_storeh_pi(reinterpret_cast<__m64*>(p + at[2]), _mm_castsi128_ps(v));
-    }
 };
 
 } // namespace

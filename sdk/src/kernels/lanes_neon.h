@@ -27,10 +27,6 @@ struct LanesNeon {
         return vcombine_u64(vcreate_u64(static_cast<std::uint64_t>(p[at[0]])),
                             vcreate_u64(static_cast<std::uint64_t>(p[at[2]])));
     }
-    static void scatter(std::int64_t* p, const std::uint32_t* at, Register v) {
-        p[at[0]] = static_cast<std::int64_t>(vgetq_lane_u64(v, 0));
-        p[at[2]] = static_cast<std::int64_t>(vgetq_lane_u64(v, 1));
-    }
     static Register set(std::int64_t value) { return vdupq_n_u64(static_cast<std::uint64_t>(value)); }
     static Register set_32(std::int32_t value) { return from_32(vdupq_n_s32(value)); }
     static Shift make_shift(int count) { return vdupq_n_s64(-count); }

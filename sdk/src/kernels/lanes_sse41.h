@@ -30,10 +30,6 @@ struct LanesSse41 {
     static Register gather(const std::int64_t* p, const std::uint32_t* at) {
         return _mm_set_epi64x(p[at[2]], p[at[0]]);
     }
-    static void scatter(std::int64_t* p, const std::uint32_t* at, Register v) {
-        _mm_storel_epi64(reinterpret_cast<__m128i*>(p + at[0]), v);
-        _mm_storeh_pi(reinterpret_cast<__m64*>(p + at[2]), _mm_castsi128_ps(v));
-    }
     static Register set(std::int64_t value) { return _mm_set1_epi64x(value); }
     static Register set_32(std::int32_t value) { return _mm_set1_epi32(value); }
     static Shift make_shift(int count) { return _mm_cvtsi32_si128(count); }

@@ -27,10 +27,6 @@ struct LanesWasm {
     static Register gather(const std::int64_t* p, const std::uint32_t* at) {
         return wasm_i64x2_make(p[at[0]], p[at[2]]);
     }
-    static void scatter(std::int64_t* p, const std::uint32_t* at, Register v) {
-        wasm_v128_store64_lane(p + at[0], v, 0);
-        wasm_v128_store64_lane(p + at[2], v, 1);
-    }
     static Register set(std::int64_t value) { return wasm_i64x2_splat(value); }
     static Register set_32(std::int32_t value) { return wasm_i32x4_splat(value); }
     static Shift make_shift(int count) { return static_cast<Shift>(count); }
