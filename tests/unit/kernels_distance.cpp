@@ -108,7 +108,10 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
     problem.parameters.gain_shift = unit_fraction_bits + direction_fraction_bits - gain_bits;
     problem.parameters.product_shift = gain_bits - shift + exponent;
     problem.parameters.error_share = kind.damped ? static_cast<std::uint32_t>(random.bits() >> 33) : unit_one;
-    problem.parameters.damping_share = unit_one - problem.parameters.error_share;
+    if (kind.damped && random.below(8) == 0) {
+        problem.parameters.error_share = random.below(2) == 0 ? 0 : unit_one - 1;
+    }
+    problem.parameters.damping_share = unit_one - std::max(problem.parameters.error_share, 1u);
     problem.positions.resize(6 * n + widest_group - 1);
     for (std::size_t i = 0; i < problem.positions.size(); ++i) {
         problem.positions[i] = signed_below(random, 61);
@@ -147,6 +150,18 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
                 problem.positions[(axis + 3) * n + end] =
                     problem.positions[axis * n + end] +
                     signed_below(random, !calm && random.below(64) == 0 ? 60 : rest_bits + shift - 6);
+            }
+        }
+        // Now and then by as much as the edge is long, where motions end that groups may take: from no length
+        // at the start of the substep, or from twice the length.
+        if (random.below(16) == 0) {
+            const bool from_nothing = random.below(2) == 0;
+            for (std::uint32_t axis = 0; axis < 3; ++axis) {
+                const std::int64_t* x = problem.positions.data() + axis * n;
+                std::int64_t* start = problem.positions.data() + (axis + 3) * n;
+                const std::int64_t edge = from_nothing ? 0 : (x[ends.b] - x[ends.a]) * 2;
+                const std::int64_t about = signed_below(random, static_cast<int>(1 + random.bits() % 50));
+                start[ends.b] = start[ends.a] + edge + about;
             }
         }
     }

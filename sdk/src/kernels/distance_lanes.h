@@ -316,7 +316,7 @@ public:
             }
             const G product = dot_product(group.d, start);
             group.motion = {L::subtract(group.u.a, product.a), L::subtract(group.u.b, product.b)};
-            outside = L::bit_or(outside, is_fast(high_u, L::high_halves(group.motion.a, group.motion.b)));
+            outside = L::bit_or(outside, exceeds(L::high_halves(group.motion.a, group.motion.b), high_u));
         }
         if constexpr (!Access::whole) {
             const G mask = at.masked({L::set(-1), L::set(-1)});
@@ -382,11 +382,10 @@ private:
         return {L::subtract(a, L::set(direction_one)), L::subtract(b, L::set(direction_one))};
     }
 
-    // The sign bit of 32-bit lanes in which |motion| might exceed 3/2·u, from the high halves of both.
-    LKS_FORCE_INLINE static R is_fast(R high_u, R high_motion) {
-        const R limit = L::add_32(high_u, L::template shift_right_32<1>(high_u));
-        const R below = L::add_32(limit, high_motion);
-        const R above = L::subtract_32(L::add_32(limit, L::set_32(-1)), high_motion);
+    // The sign bit of 32-bit lanes in which |motion| might exceed u, from the high halves of both.
+    LKS_FORCE_INLINE static R exceeds(R high_motion, R high_u) {
+        const R below = L::add_32(high_u, high_motion);
+        const R above = L::subtract_32(L::add_32(high_u, L::set_32(-1)), high_motion);
         return L::bit_and(L::bit_or(below, above), L::set_32(INT32_MIN));
     }
 
@@ -435,26 +434,29 @@ private:
             f = {damp(f.a, L::shift_left_each(group.motion.a, shift.a), lengths.y.a),
                  damp(f.b, L::shift_left_each(group.motion.b, shift.b), lengths.y.b)};
         }
-        // |f| ≤ 1, but for the upper end itself.
-        if constexpr (!multiplier) {
-            const R beyond =
-                L::bit_or(L::add(f.a, L::set(direction_one)), L::add(f.b, L::set(direction_one)));
-            return !L::any(L::bit_and(beyond, L::set(std::int64_t{1} << 31)));
+        if constexpr (multiplier) {
+            if (task_.relaxations != nullptr) {
+                return relax_by_multiplier(at, lengths, f);
+            }
         }
+        return true;
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE bool relax_by_multiplier(const Access& at, const Lengths& lengths, G& f) const {
         R beyond = L::set(0);
-        if (task_.relaxations != nullptr) {
-            const G length = narrow(at.load_wide(task_.arrays.multipliers), beyond);
-            const G relaxation = at.load(task_.relaxations);
-            f = {relax(f.a, length.a, relaxation.a, lengths.y.a, lengths.twice_k.a),
-                 relax(f.b, length.b, relaxation.b, lengths.y.b, lengths.twice_k.b)};
-        }
+        const G length = narrow(at.load_wide(task_.arrays.multipliers), beyond);
+        const G relaxation = at.load(task_.relaxations);
+        f = {relax(f.a, length.a, relaxation.a, lengths.y.a, lengths.twice_k.a),
+             relax(f.b, length.b, relaxation.b, lengths.y.b, lengths.twice_k.b)};
+        // |f| ≤ 1, but for the upper end itself.
         beyond = L::bit_or(beyond,
                            L::bit_or(L::add(f.a, L::set(direction_one)), L::add(f.b, L::set(direction_one))));
         return !L::any(L::bit_and(beyond, L::set(~std::int64_t{INT32_MAX})));
     }
 
     // c·g − γ'·motion/u; `aligned` is motion·2^(2k − 2). Only the low half counts where there are no
-    // multipliers: f is within ±3/2.
+    // multipliers: f is within ±1.
     LKS_FORCE_INLINE R damp(R g, R aligned, R y) const {
         const R high = L::template shift_right<32>(L::add(aligned, L::set(std::int64_t{1} << 31)));
         const R reciprocal = L::template shift_right<32>(L::multiply_unsigned(y, y));

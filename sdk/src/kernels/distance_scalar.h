@@ -138,13 +138,16 @@ private:
             if (relaxations_ != nullptr) {
                 const std::int64_t length = std::clamp<std::int64_t>(
                     shift_right_rounded(arrays_.multipliers[constraint], scale), -INT32_MAX, INT32_MAX);
-                f -= over_length(unit_multiply(relaxations_[constraint], length), y, k);
+                f = std::clamp<std::int64_t>(
+                    f - over_length(unit_multiply(relaxations_[constraint], length), y, k), -direction_one,
+                    direction_one);
             }
         }
-        return std::clamp<std::int64_t>(f, -direction_one, direction_one);
+        // Without the relaxation |f| ≤ 1, but for some units of rounding: both shares come to one at most.
+        return f;
     }
 
-    // n·(Δx_a − Δx_b) / len since the start of the substep in Direction format, within ±3/2: with d and the
+    // n·(Δx_a − Δx_b) / len since the start of the substep in Direction format, within ±1: with d and the
     // same difference at the start, d·(d − d_start) / u.
     std::int64_t relative_motion(std::uint32_t a, std::uint32_t b, const NarrowDifference& d, std::uint64_t u,
                                  std::uint32_t y, int k, int scale) const {
@@ -153,12 +156,11 @@ private:
                                             -direction_one, direction_one - 1);
         };
         const auto squared = static_cast<std::int64_t>(u); // below 2^62, so that k ≥ 1
-        const std::int64_t limit = squared + (squared >> 1);
         const std::int64_t dot =
             std::clamp(squared - d.x * start_difference(arrays_.start_x) -
                            d.y * start_difference(arrays_.start_y) - d.z * start_difference(arrays_.start_z),
-                       -limit, limit);
-        // Below 3/4·2^63. u is m·2^(62 − 2k) with m in [1, 4), and y² is 1/m: rounded, as a floor would damp
+                       -squared, squared);
+        // Below 2^62. u is m·2^(62 − 2k) with m in [1, 4), and y² is 1/m: rounded, as a floor would damp
         // what does not move.
         const std::int64_t aligned = shift_right_rounded(dot * (std::int64_t{1} << (2 * k - 2)), 32);
         const auto reciprocal = static_cast<std::int64_t>(std::uint64_t{y} * y >> 32);
