@@ -18,9 +18,8 @@ public:
     void restore();
 
 private:
-    void project(lks::Object& object) const;
-
     lks_world* world_;
+    std::vector<std::vector<lks::DistanceTask>> tasks_; // by object
     std::vector<std::vector<std::int64_t>> saved_;
 };
 

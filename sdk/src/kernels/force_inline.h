@@ -9,3 +9,16 @@
 #define LKS_FORCE_INLINE inline __attribute__((always_inline))
 #define LKS_NEVER_INLINE __attribute__((noinline))
 #endif
+
+// Before a function whose loops are short: what compilers make ready for vectors would outweigh them.
+#if defined(__GNUC__) && !defined(__clang__)
+#define LKS_SHORT_LOOPS __attribute__((noinline, optimize("no-tree-vectorize")))
+#else
+#define LKS_SHORT_LOOPS LKS_NEVER_INLINE
+#endif
+// Before such a loop.
+#if defined(__clang__)
+#define LKS_SHORT_LOOP _Pragma("clang loop vectorize(disable)")
+#else
+#define LKS_SHORT_LOOP
+#endif

@@ -10,6 +10,7 @@
 #include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
+#include "kernels/lanes_avx2.h"
 #include "kernels/lanes_avx512.h"
 #include "kernels/leave_lanes.h"
 #include "kernels/prediction_lanes.h"
@@ -30,7 +31,7 @@ void project_by_length(const DistanceTask& task) {
 
 const Kernels kernels_avx512{LKS_SIMD_AVX512,
                              project_by_length,
-                             leaving<LanesAvx512, predict_lanes<LanesAvx512>>,
+                             leaving<LanesAvx512, predict_lanes<LanesAvx512, LanesAvx2>>,
                              leaving<LanesAvx512, near_box_lanes<LanesAvx512>>,
                              leaving<LanesAvx512, near_plane_lanes<LanesAvx512>>,
                              leaving<LanesAvx512, hash_update>};

@@ -11,7 +11,7 @@ namespace {
 struct LanesAvx512 {
     static constexpr std::uint32_t half = 8;
     // Groups that go through the stages together.
-    static constexpr std::uint32_t together = 3;
+    static constexpr std::uint32_t together = 4;
     static constexpr std::uint32_t singles_together = 8;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 3;

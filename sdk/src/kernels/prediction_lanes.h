@@ -1,6 +1,10 @@
-// Prediction, 2·L::half particles at a time: kernels/prediction_scalar.h over lanes. Where a lane would be
-// clamped, all of its group go the plain way.
+// Prediction over lanes: kernels/prediction_scalar.h. Where a lane might be clamped, all of its group go the
+// plain way. "Might" is told from powers of two, which take one addition: a motion that stays within the
+// limit whatever is added to it, and a place within 2^61 (objects are kept around their origin).
 #pragma once
+
+#include <bit>
+#include <type_traits>
 
 #include "kernels/prediction_scalar.h"
 
@@ -13,54 +17,69 @@ class PredictionLanes {
 
 public:
     explicit PredictionLanes(const PredictionTask& task)
-        : task_(task), limit_(L::set(task.motion_limit)), twice_limit_(L::set(2 * task.motion_limit)),
-          acceleration_(L::set(task.acceleration_motion)), kept_(L::set(task.kept)) {}
+        : task_(task), acceleration_(L::set(task.acceleration_motion)), kept_(L::set(task.kept)) {
+        const std::int64_t room =
+            task.motion_limit -
+            (task.acceleration_motion < 0 ? -task.acceleration_motion : task.acceleration_motion);
+        const std::int64_t safe =
+            room > 0 ? std::int64_t{1} << (63 - std::countl_zero(static_cast<std::uint64_t>(room))) : 0;
+        motion_bias_ = L::set(safe);
+        motion_beyond_ = L::set(safe > 0 ? ~(2 * safe - 1) : -1);
+    }
 
-    PredictionClamps run() const {
-        PredictionClamps clamps;
+    // From particle i on, in whole groups; returns where the rest begins.
+    std::size_t run(std::size_t i, PredictionClamps& clamps) const {
         constexpr std::size_t lanes = 2 * L::half;
-        std::size_t i = 0;
         for (; i + lanes <= task_.count; i += lanes) {
             const Prediction first = predict(i);
             const Prediction second = predict(i + L::half);
-            if (L::sign_bits(L::bit_or(first.outside, second.outside)) != 0) {
+            if (might_be_clamped(L::bit_or(first.motion, second.motion),
+                                 L::bit_or(first.place, second.place))) {
                 predict_in_turn<damped>(task_, i, i + lanes, clamps);
-                continue;
+            } else {
+                store(i, first);
+                store(i + L::half, second);
             }
-            store(i, first);
-            store(i + L::half, second);
         }
-        predict_in_turn<damped>(task_, i, task_.count, clamps);
-        return clamps;
+        return i;
+    }
+
+    // To the end.
+    void finish(std::size_t i, PredictionClamps& clamps) const {
+        if (i + L::half <= task_.count) {
+            const Prediction last = predict(i);
+            if (!might_be_clamped(last.motion, last.place)) {
+                store(i, last);
+                i += L::half;
+            }
+        }
+        if (i != task_.count) {
+            predict_in_turn<damped>(task_, i, task_.count, clamps);
+        }
     }
 
 private:
+    static constexpr std::int64_t safe_place = std::int64_t{1} << 61;
+
     struct Prediction {
         R start, x;
-        R outside; // negative where something would be clamped
+        R motion, place; // lifted by what is safe: from zero to below twice that
     };
+
+    bool might_be_clamped(R motion, R place) const {
+        return L::any(
+            L::bit_or(L::bit_and(motion, motion_beyond_), L::bit_and(place, L::set(~(2 * safe_place - 1)))));
+    }
 
     Prediction predict(std::size_t i) const {
         const R x = L::load(task_.x + i);
-        R motion = L::subtract(x, L::load(task_.start + i));
-        R outside = beyond(motion, limit_, twice_limit_);
+        const R motion = L::subtract(x, L::load(task_.start + i));
+        R kept = motion;
         if constexpr (damped) {
-            motion = damp_lanes(motion);
+            kept = damp_lanes(motion);
         }
-        const R accelerated = L::add(motion, acceleration_);
-        outside = L::bit_or(outside, beyond(accelerated, limit_, twice_limit_));
-        const R edge = L::set(coordinate_limit);
-        const R twice_edge = L::set(2 * coordinate_limit);
-        const R predicted = L::add(x, accelerated);
-        outside =
-            L::bit_or(outside, L::bit_or(beyond(x, edge, twice_edge), beyond(predicted, edge, twice_edge)));
-        return {x, predicted, outside};
-    }
-
-    // Negative where the value, or what it wrapped from, lies outside ±limit.
-    static R beyond(R value, R limit, R twice_limit) {
-        const R lifted = L::add(value, limit);
-        return L::bit_or(lifted, L::subtract(twice_limit, lifted));
+        return {x, L::add(x, L::add(kept, acceleration_)), L::add(motion, motion_bias_),
+                L::add(x, L::set(safe_place))};
     }
 
     // Within the limit (2^60 at most) the high part has 30 bits, so its sign may be lost above.
@@ -78,16 +97,33 @@ private:
     }
 
     const PredictionTask& task_;
-    R limit_;
-    R twice_limit_;
     R acceleration_;
     R kept_;
+    R motion_bias_;
+    R motion_beyond_;
 };
 
-template <typename L>
+// `Narrow`: the lanes for what does not fill a group.
+template <typename L, typename Narrow, bool damped>
+inline PredictionClamps predict_in_groups(const PredictionTask& task) {
+    PredictionClamps clamps;
+    std::size_t i = 0;
+    if constexpr (!std::is_same_v<L, Narrow>) {
+        if (task.count >= 8 * L::half) {
+            i = PredictionLanes<L, damped>(task).run(0, clamps);
+        }
+    }
+    if (i != task.count) {
+        const PredictionLanes<Narrow, damped> narrow(task);
+        narrow.finish(narrow.run(i, clamps), clamps);
+    }
+    return clamps;
+}
+
+template <typename L, typename Narrow = L>
 inline PredictionClamps predict_lanes(const PredictionTask& task) {
-    return task.kept == unit_one ? PredictionLanes<L, false>(task).run()
-                                 : PredictionLanes<L, true>(task).run();
+    return task.kept == unit_one ? predict_in_groups<L, Narrow, false>(task)
+                                 : predict_in_groups<L, Narrow, true>(task);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fixed/formats.h"
+#include "kernels/force_inline.h"
 #include "kernels/prediction_task.h"
 #include "solver/wrapping.h"
 
@@ -19,9 +20,10 @@ inline std::int64_t damp(std::int64_t motion, std::uint32_t kept) {
 }
 
 template <bool damped>
-inline void predict_in_turn(const PredictionTask& task, std::size_t first, std::size_t last,
-                            PredictionClamps& clamps) {
+LKS_SHORT_LOOPS void predict_in_turn(const PredictionTask& task, std::size_t first, std::size_t last,
+                                     PredictionClamps& clamps) {
     const std::int64_t limit = task.motion_limit;
+    LKS_SHORT_LOOP
     for (std::size_t i = first; i < last; ++i) {
         const std::int64_t x = task.x[i];
         std::int64_t motion = wrapping_subtract(x, task.start[i]);

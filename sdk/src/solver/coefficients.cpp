@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "fixed/formats.h"
+
 namespace lks {
 namespace {
 
@@ -37,6 +39,21 @@ Scaled inverse_mass(const lks_asset& asset, const PinnedParticles& pinned, std::
 Scaled largest_share(const Scaled& w_a, const Scaled& w_b, const Scaled& softness) {
     const Scaled& w = w_a < w_b ? w_b : w_a;
     return w / (w + softness);
+}
+
+DistanceParameters distance_parameters(const Batch& batch, std::int32_t share_exponent,
+                                       const FamilyCoefficients& family) {
+    // A gain of difference_shift bits makes the product a coordinate as it stands. Where a shift is needed
+    // anyway, it has 30 bits.
+    const int gain_bits = share_exponent == 0 ? batch.difference_shift : direction_fraction_bits;
+    DistanceParameters parameters{};
+    parameters.difference_shift = batch.difference_shift;
+    parameters.rest_exponent = batch.rest_exponent;
+    parameters.gain_shift = unit_fraction_bits + direction_fraction_bits - gain_bits;
+    parameters.product_shift = gain_bits - batch.difference_shift + share_exponent;
+    parameters.error_share = family.error_share;
+    parameters.damping_share = family.damping_share;
+    return parameters;
 }
 
 } // namespace
@@ -79,6 +96,7 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
         // s ≤ 2^-exponent; beyond 40 a correction would be under one coordinate unit for any length.
         const std::int32_t exponent = largest.is_zero() ? 0 : -largest.log2_floor() - 1;
         batches[b].share_exponent = std::clamp(exponent, 0, 40);
+        batches[b].parameters = distance_parameters(batch, batches[b].share_exponent, families[batch.family]);
         batches[b].equal_shares = true;
         for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
             update_constraint(asset, rate, none, i, b);

@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "asset/asset.h"
+#include "kernels/distance_task.h"
 #include "solver/step_rate.h"
 
 namespace lks {
@@ -24,6 +25,7 @@ struct FamilyCoefficients {
 };
 
 struct BatchCoefficients {
+    DistanceParameters parameters{};
     std::int32_t share_exponent = 0; // s = share · 2^-(31 + share_exponent)
     // s_a = s_b throughout, so that nobody need look. False says nothing.
     bool equal_shares = true;

@@ -6,7 +6,7 @@
 // clang-format off
 //     d = (x_a − x_b) >> (s + e)           31 bits, rounded; s is the batch's, e > 0 for far edges only
 //     u = d·d,  y = 1/√u                   fixed/projection_reciprocal_sqrt.h
-//     f = c·(min(L·y, 2) − 1) − r·Λ·y − γ'·d·(Δx_a − Δx_b)·y²       clamped to [−1, 1]
+//     f = c·(min(L·y, 2) − 1) − r·Λ·y − γ'·d·(Δx_a − Δx_b)·y²       within [−1, 1]
 //     x_a += d·(s_a·f),  x_b −= d·(s_b·f)  where s_a = s_b: the same product at both ends
 //     the same for each end where they differ, with s·f to 31 more bits than the gain has
 // clang-format on
@@ -25,7 +25,12 @@
 
 namespace lks {
 
-void project_distances(const lks_asset& asset, const Coefficients& coefficients, std::uint32_t batch,
-                       ConstraintRange range, const DistanceArrays& arrays, const Kernels& kernels);
+// What a kernel has to know for one pass over a batch. Made once a tick: what a kernel reads was then stored
+// long ago, and does not hold it up.
+DistanceTask whole_batch(const lks_asset& asset, const Coefficients& coefficients, std::uint32_t batch,
+                         const DistanceArrays& arrays);
+// For some of its constraints.
+DistanceTask part_of_batch(const DistanceTask& whole, const lks_asset& asset, std::uint32_t batch,
+                           ConstraintRange range);
 
 } // namespace lks

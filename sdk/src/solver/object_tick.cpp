@@ -33,6 +33,7 @@ public:
         begin_pin_motion(object_);
         object_.record_pins();
         find_candidates(bounds);
+        prepare_batches();
         for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
             run_substep(substep);
         }
@@ -75,31 +76,55 @@ private:
         }
     }
 
+    void prepare_batches() {
+        scratch_.batches.clear();
+        for (std::uint32_t index = 0; index < asset_.batches.size(); ++index) {
+            scratch_.batches.push_reserved(whole_batch(asset_, coefficients_, index, distance_arrays()));
+        }
+    }
+
     void project_batch(std::uint32_t index) {
-        const Batch& batch = asset_.batches[index];
-        in_blocks(batch.count, constraints_a_block,
-                  [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
-                      const std::uint32_t from = batch.first + first;
-                      project_distances(asset_, coefficients_, index, {from, from + count}, distance_arrays(),
-                                        *world_.kernels);
-                  });
+        const DistanceTask& whole = scratch_.batches[index];
+        if (team_ == nullptr) {
+            world_.kernels->project_distances(whole);
+            return;
+        }
+        in_blocks(
+            asset_.batches[index].count, constraints_a_block,
+            [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
+                const std::uint32_t from = whole.range.first + first;
+                world_.kernels->project_distances(part_of_batch(whole, asset_, index, {from, from + count}));
+            });
     }
 
     void predict() {
+        if (team_ == nullptr) {
+            count(predict(0, object_.count()));
+            return;
+        }
         PredictionClamps clamps[greatest_block_count];
         const std::uint32_t blocks =
             in_blocks(object_.count(), particles_a_block,
-                      [&](std::uint32_t block, std::uint32_t first, std::uint32_t count) {
-                          for (int axis = 0; axis < 3; ++axis) {
-                              predict_axis(object_.axis(axis) + first, object_.start_axis(axis) + first,
-                                           count, acceleration_[axis], kept_, world_.rate.motion_limit,
-                                           *world_.kernels, clamps[block]);
-                          }
+                      [&](std::uint32_t block, std::uint32_t first, std::uint32_t part) {
+                          clamps[block] = predict(first, part);
                       });
         for (std::uint32_t block = 0; block < blocks; ++block) {
-            scratch_.counters.position_clamps += clamps[block].positions;
-            scratch_.counters.speed_clamps += clamps[block].speeds;
+            count(clamps[block]);
         }
+    }
+
+    PredictionClamps predict(std::uint32_t first, std::uint32_t part) {
+        PredictionClamps clamps;
+        for (int axis = 0; axis < 3; ++axis) {
+            predict_axis(object_.axis(axis) + first, object_.start_axis(axis) + first, part,
+                         acceleration_[axis], kept_, world_.rate.motion_limit, *world_.kernels, clamps);
+        }
+        return clamps;
+    }
+
+    void count(const PredictionClamps& clamps) {
+        scratch_.counters.position_clamps += clamps.positions;
+        scratch_.counters.speed_clamps += clamps.speeds;
     }
 
     // Contacts come last in an iteration, so that a substep ends with nothing inside a collider.

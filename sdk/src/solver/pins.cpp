@@ -7,6 +7,9 @@ namespace lks {
 std::int64_t interpolate_coordinate(std::int64_t from, std::int64_t to, std::uint32_t numerator,
                                     std::uint32_t denominator) {
     const std::int64_t difference = wrapping_subtract(to, from);
+    if (difference == 0) {
+        return from;
+    }
     const auto n = static_cast<std::int64_t>(numerator);
     const auto d = static_cast<std::int64_t>(denominator);
     // |quotient · n| ≤ |difference|, and the remainder is below d ≤ 1000: nothing overflows.

@@ -3,6 +3,7 @@
 
 #include <lockstitch/world.h>
 
+#include "kernels/distance_task.h"
 #include "memory/array.h"
 #include "solver/object.h"
 
@@ -10,6 +11,7 @@ namespace lks {
 
 struct TickScratch {
     Array<std::uint32_t> candidates; // colliders near the object at work
+    Array<DistanceTask> batches;     // of the object at work, by batch
     lks_world_counters counters{};   // of this tick
 };
 

@@ -19,6 +19,7 @@ lks_world::lks_world(const lks_world_def& def)
       objects(allocator), colliders(allocator), assets(allocator), load_staging(allocator) {
     for (lks::TickScratch& worker : scratch) {
         worker.candidates.set_allocator(allocator);
+        worker.batches.set_allocator(allocator);
     }
 }
 
@@ -89,6 +90,11 @@ const KnownAsset* lks_world::know_asset(const lks_asset& asset) {
     }
     if (assets.size() == assets.capacity() && !assets.reserve(std::max<std::size_t>(8, 2 * assets.size()))) {
         return nullptr;
+    }
+    for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
+        if (!scratch[worker].batches.reserve(asset.batches.size())) {
+            return nullptr;
+        }
     }
     auto* coefficients = lks::create<Coefficients>(allocator, allocator);
     if (coefficients == nullptr || !coefficients->build(asset, rate)) {
