@@ -6,7 +6,7 @@
 // clang-format off
 //     d = (x_a − x_b) >> (s + e)           31 bits, rounded; s is the batch's, e > 0 for far edges only
 //     u = d·d,  y = 1/√u                   fixed/projection_reciprocal_sqrt.h
-//     f = c·(min(L·y, 2) − 1) − r·Λ·y − γ'·d·(Δx_a − Δx_b)·y²       within [−1, 1]
+//     f = c·(min(L·y, 2) − 1) − r·Λ·y − γ'·d·(d − d_start)·y²       within [−1, 1]
 //     x_a += d·(s_a·f),  x_b −= d·(s_b·f)  where s_a = s_b: the same product at both ends
 //     the same for each end where they differ, with s·f to 31 more bits than the gain has
 // clang-format on

@@ -3,8 +3,8 @@
 
 #include <lockstitch/tasks.h>
 
-#include "threads/platform.h"
 #include "threads/team.h"
+#include "threads/workers.h"
 
 namespace lks {
 

@@ -1,36 +1,11 @@
-// What is needed of the operating system: threads that wait for work, who is running, and giving way.
+// What is needed of the operating system: Mutex, Condition and Thread, current_thread, give_way. The same
+// names from one of three headers; without threads, none can be started.
 #pragma once
 
-#include <cstdint>
-
-namespace lks {
-
-// Of the calling thread, unlike any other's.
-std::uint64_t current_thread();
-
-// Lets others run.
-void give_way();
-
-// Threads that sleep until they are woken, do one piece of work each, and sleep again.
-class Workers {
-public:
-    Workers() = default;
-    ~Workers() { stop(); }
-    Workers(const Workers&) = delete;
-    Workers& operator=(const Workers&) = delete;
-
-    // work(context, i) is what thread i of `count` does when it is woken. False: no thread or no memory, and
-    // none runs. Where there are no threads, none is started and that is all right.
-    [[nodiscard]] bool start(std::uint32_t count, void (*work)(void* context, std::uint32_t index),
-                             void* context);
-    void wake();
-    // Until all that were woken have done their work.
-    void wait();
-    void stop();
-
-private:
-    struct State;
-    State* state_ = nullptr;
-};
-
-} // namespace lks
+#if defined(_WIN32)
+#include "threads/platform_windows.h"
+#elif defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+#include "threads/platform_none.h"
+#else
+#include "threads/platform_posix.h"
+#endif
