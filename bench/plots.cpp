@@ -67,7 +67,7 @@ std::string colour_of(const std::string& variant) {
 class Script {
 public:
     Script(const std::string& folder, const Plot& plot) {
-        text_ = "set terminal svg size 1200,600 font 'sans,15' background '#ffffff'\n"
+        text_ = "set terminal svg size 1280,600 font 'sans,15' background '#ffffff'\n"
                 "set output '" +
                 (fs::path(folder) / plot.file).string() + "'\nset title \"" + plot.title +
                 "\"\nset grid lc '#dddddd'\nset key outside right\n";

@@ -169,6 +169,7 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
     problem.rests.resize(padded, UINT32_MAX);
     problem.shares_a.resize(padded, unit_one - 1);
     problem.shares_b.resize(padded, unit_one - 1);
+    problem.relaxations.resize(padded, unit_one - 1);
     return problem;
 }
 

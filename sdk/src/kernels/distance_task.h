@@ -45,7 +45,7 @@ struct DistanceTask {
     bool short_runs;            // of less than widest_group constraints on the average of the batch
     std::uint32_t first_single; // constraint: from here on its ends are in `constraints`
     const Constraint* constraints;
-    // By constraint.
+    // By constraint; kernels read up to widest_group - 1 of each behind the last one.
     const std::uint32_t* rest_mantissas;
     const std::uint32_t* shares_a;
     const std::uint32_t* shares_b;

@@ -79,7 +79,7 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
         any_soft = any_soft || families[f].soft;
     }
     // In the first iteration of a substep Λ is zero, so r plays no part.
-    if (rate.iterations > 1 && any_soft && !relaxations.resize(count)) {
+    if (rate.iterations > 1 && any_soft && !relaxations.resize(padded)) {
         return false;
     }
     const PinnedParticles none;

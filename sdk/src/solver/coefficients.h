@@ -55,7 +55,8 @@ public:
     FamilyCoefficients families[family_count];
     Array<std::uint32_t> shares_a; // s_a mantissas, by constraint; padded, as kernels read on
     Array<std::uint32_t> shares_b;
-    Array<std::uint32_t> relaxations; // r, Unit, by constraint; empty where one iteration makes it needless
+    Array<std::uint32_t>
+        relaxations; // r, Unit, by constraint, padded; empty where one iteration makes it needless
     Array<BatchCoefficients> batches;
 
 private:
