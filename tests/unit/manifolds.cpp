@@ -1,0 +1,209 @@
+// Contact points of shapes against distances that are sampled in double precision.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "collide/manifold.h"
+#include "support/numbers.h"
+
+using namespace support;
+
+namespace {
+
+double unit(Random& random) {
+    return static_cast<double>(random.next() >> 11) * 0x1p-53;
+}
+
+lks::fixed::Matrix3 random_axes(Random& random) {
+    lks::fixed::Rotation q{};
+    do {
+        const auto part = [&] { return static_cast<std::int32_t>(random.next() >> 34) - (1 << 29); };
+        q = {part(), part(), part(), part()};
+    } while (q.x == 0 && q.y == 0);
+    return lks::fixed::to_matrix(lks::fixed::normalise(q));
+}
+
+lks::Piece random_piece(Random& random, std::uint32_t kind, double spread) {
+    lks::Piece piece{};
+    piece.kind = kind;
+    if (kind == LKS_SHAPE_BOX) {
+        piece.half_extents = {fixed(0.05 + 0.5 * unit(random)), fixed(0.05 + 0.5 * unit(random)),
+                              fixed(0.05 + 0.5 * unit(random))};
+    } else {
+        piece.radius = fixed(0.02 + 0.2 * unit(random));
+        piece.half_length = kind == LKS_SHAPE_CAPSULE ? fixed(0.6 * unit(random)) : 0;
+    }
+    piece.centre = {fixed(spread * (unit(random) - 0.5)), fixed(spread * (unit(random) - 0.5)),
+                    fixed(spread * (unit(random) - 0.5))};
+    piece.axes = random_axes(random);
+    return piece;
+}
+
+Vector axis(const lks::Piece& piece, int i) {
+    return Vector{double(piece.axes.m[0][i]), double(piece.axes.m[1][i]), double(piece.axes.m[2][i])} *
+           0x1p-30;
+}
+
+Vector centre(const lks::Piece& piece) {
+    return {metres(piece.centre.x), metres(piece.centre.y), metres(piece.centre.z)};
+}
+
+// The nearest point of a piece's core to p.
+Vector nearest(const lks::Piece& piece, const Vector& p) {
+    const Vector d = p - centre(piece);
+    if (piece.kind != LKS_SHAPE_BOX) {
+        const double h = metres(piece.half_length);
+        return centre(piece) + axis(piece, 1) * std::clamp(d.dot(axis(piece, 1)), -h, h);
+    }
+    const double e[3] = {metres(piece.half_extents.x), metres(piece.half_extents.y),
+                         metres(piece.half_extents.z)};
+    Vector out = centre(piece);
+    for (int i = 0; i < 3; ++i) {
+        out = out + axis(piece, i) * std::clamp(d.dot(axis(piece, i)), -e[i], e[i]);
+    }
+    return out;
+}
+
+// The distance of two cores: projecting in turn onto either converges, as both are convex.
+double core_distance(const lks::Piece& a, const lks::Piece& b) {
+    Vector p = centre(a);
+    for (int i = 0; i < 4000; ++i) {
+        p = nearest(a, nearest(b, p));
+    }
+    return (nearest(b, p) - p).length();
+}
+
+double least_separation(const lks::Manifold& manifold) {
+    double least = 1e9;
+    for (std::uint32_t i = 0; i < manifold.count; ++i) {
+        least = std::min(least, metres(manifold.points[i].separation));
+    }
+    return least;
+}
+
+struct Tally {
+    double worst = 0;
+    int compared = 0;
+};
+
+// Only pairs whose cores are apart: there the distance says everything.
+Tally compare(std::uint32_t kind_a, std::uint32_t kind_b, int rounds) {
+    Random random(11 + kind_a * 7 + kind_b);
+    Tally tally;
+    for (int i = 0; i < rounds; ++i) {
+        const lks::Piece a = random_piece(random, kind_a, 1.5);
+        const lks::Piece b = random_piece(random, kind_b, 1.5);
+        const double distance = core_distance(a, b);
+        if (distance < 0.01) {
+            continue;
+        }
+        lks::Manifold manifold{};
+        lks::collide(a, b, LKS_FIXED(5), manifold);
+        REQUIRE(manifold.count >= 1);
+        const double expected = distance - metres(a.radius) - metres(b.radius);
+        tally.worst = std::max(tally.worst, std::abs(least_separation(manifold) - expected));
+        ++tally.compared;
+    }
+    return tally;
+}
+
+} // namespace
+
+TEST_CASE("spheres and capsules meet at their distance") {
+    for (const std::uint32_t a : {LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE}) {
+        for (const std::uint32_t b : {LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE}) {
+            const Tally tally = compare(a, b, 300);
+            INFO(a << " and " << b << ": " << tally.worst << " of " << tally.compared);
+            CHECK(tally.compared > 200);
+            CHECK(tally.worst < 2e-6);
+        }
+    }
+}
+
+TEST_CASE("spheres and capsules meet boxes at their distance, whichever comes first") {
+    for (const std::uint32_t a : {LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE}) {
+        const Tally tally = compare(a, LKS_SHAPE_BOX, 300);
+        INFO(a << ": " << tally.worst << " of " << tally.compared);
+        CHECK(tally.compared > 150);
+        CHECK(tally.worst < 2e-6);
+        const Tally turned = compare(LKS_SHAPE_BOX, a, 300);
+        CHECK(turned.worst < 2e-6);
+    }
+}
+
+TEST_CASE("boxes never seem to overlap where they are apart") {
+    Random random(3);
+    int apart = 0;
+    for (int i = 0; i < 400; ++i) {
+        const lks::Piece a = random_piece(random, LKS_SHAPE_BOX, 1.8);
+        const lks::Piece b = random_piece(random, LKS_SHAPE_BOX, 1.8);
+        const double distance = core_distance(a, b);
+        lks::Manifold manifold{};
+        lks::collide(a, b, LKS_FIXED(5), manifold);
+        if (manifold.count == 0) {
+            // Beside each other: nothing of either face is over the other.
+            CHECK(distance > 0.01);
+            continue;
+        }
+        if (distance > 0.01) {
+            ++apart;
+            // Along the axis of least overlap. What is over a face may be further than two edges are that are
+            // not, so it is near boxes that count.
+            if (distance < 0.05) {
+                CHECK(least_separation(manifold) < 1.5 * distance);
+            }
+            CHECK(least_separation(manifold) > -1e-6);
+        } else {
+            CHECK(least_separation(manifold) < 0.011);
+        }
+    }
+    CHECK(apart > 100);
+}
+
+TEST_CASE("a box that lies on a box touches it in four points, on a plane too") {
+    Random random(9);
+    lks::Piece low = random_piece(random, LKS_SHAPE_BOX, 0);
+    low.axes = lks::fixed::to_matrix(lks::fixed::identity_rotation());
+    low.half_extents = {fixed(1.0), fixed(0.5), fixed(1.0)};
+    low.centre = {0, 0, 0};
+    lks::Piece high = low;
+    high.half_extents = {fixed(0.25), fixed(0.25), fixed(0.25)};
+    high.centre = {fixed(0.1), fixed(0.751), fixed(-0.2)};
+    lks::Manifold manifold{};
+    lks::collide(low, high, fixed(0.01), manifold);
+    REQUIRE(manifold.count == 4);
+    CHECK(manifold.normal.y == 1 << 30);
+    for (const lks::ManifoldPoint& point : manifold.points) {
+        CHECK(std::abs(metres(point.separation) - 0.001) < 1e-8);
+        CHECK(std::abs(std::abs(metres(point.core_b.x) - 0.1) - 0.25) < 1e-8);
+    }
+    lks::Piece plane{};
+    plane.kind = LKS_SHAPE_PLANE;
+    plane.axes = low.axes;
+    plane.centre = {0, fixed(0.5), 0};
+    lks::collide(high, plane, fixed(0.01), manifold);
+    REQUIRE(manifold.count == 4);
+    CHECK(manifold.normal.y == -(1 << 30));
+}
+
+TEST_CASE("shapes in exactly the same place have a normal and an overlap") {
+    Random random(21);
+    for (const std::uint32_t kind : {LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE, LKS_SHAPE_BOX}) {
+        for (const std::uint32_t other : {LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE, LKS_SHAPE_BOX}) {
+            lks::Piece a = random_piece(random, kind, 0);
+            lks::Piece b = random_piece(random, other, 0);
+            b.centre = a.centre;
+            b.axes = a.axes;
+            lks::Manifold manifold{};
+            lks::collide(a, b, 0, manifold);
+            REQUIRE(manifold.count >= 1);
+            CHECK(least_separation(manifold) < 0);
+            const double length =
+                std::hypot(double(manifold.normal.x), double(manifold.normal.y), double(manifold.normal.z)) *
+                0x1p-30;
+            CHECK(std::abs(length - 1) < 1e-8);
+        }
+    }
+}
