@@ -5,9 +5,12 @@
 #include <lockstitch/asset.h>
 #include <lockstitch/authoring.h>
 #include <lockstitch/base.h>
+#include <lockstitch/body.h>
 #include <lockstitch/collider.h>
 #include <lockstitch/fixed.h>
+#include <lockstitch/joint.h>
 #include <lockstitch/object.h>
+#include <lockstitch/ragdoll.h>
 #include <lockstitch/simd.h>
 #include <lockstitch/state.h>
 #include <lockstitch/tasks.h>

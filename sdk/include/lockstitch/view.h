@@ -5,6 +5,7 @@
 #ifndef LOCKSTITCH_VIEW_H
 #define LOCKSTITCH_VIEW_H
 
+#include <lockstitch/body.h>
 #include <lockstitch/collider.h>
 #include <lockstitch/object.h>
 
@@ -37,6 +38,10 @@ LKS_API lks_result lks_object_write_vertices(const lks_world* world, lks_object_
  * like vertices. The rotation is interpolated too. */
 LKS_API lks_result lks_collider_write_matrix(const lks_world* world, lks_collider_id collider,
                                              uint32_t interpolation, lks_vec3 view_origin, float matrix[16]);
+
+/* The same for a body's frame. */
+LKS_API lks_result lks_body_write_matrix(const lks_world* world, lks_body_id body, uint32_t interpolation,
+                                         lks_vec3 view_origin, float matrix[16]);
 
 /* To the nearest double. */
 LKS_API double lks_fixed_to_double(lks_fixed value);

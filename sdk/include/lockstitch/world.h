@@ -87,10 +87,12 @@ LKS_API lks_result lks_world_gravity(const lks_world* world, lks_vec3* gravity);
 /* What was clamped since creation, never silently. No part of the state. */
 typedef struct lks_world_counters {
     uint64_t position_clamps; /* a particle's axis left its object's range of ±64 m */
-    uint64_t speed_clamps;    /* a particle's axis was faster than the speed limit */
+    uint64_t speed_clamps;    /* a particle's axis, or a body, was faster than its limit */
     uint64_t target_clamps;   /* a pin's target lay outside its object's range */
     uint64_t world_edge_hits; /* an object's origin could not follow it past ±8,388 km */
     uint64_t dropped_ticks;   /* by LKS_EXCESS_TIME_DROP */
+    uint64_t lost_contacts;   /* more pairs of bodies touched than a tick has room for: on the average 32 near
+                                 and 12 touching a body */
 } lks_world_counters;
 
 LKS_API lks_result lks_world_get_counters(const lks_world* world, lks_world_counters* counters);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rigid/rigid_tick.h"
 #include "solver/object_tick.h"
 #include "solver/world.h"
 
@@ -116,6 +117,7 @@ void run_tick(lks_world& world) {
         run_objects(world);
     }
     collect_counters(world);
+    run_rigid_tick(world);
     finish_collider_motion(world);
     ++world.tick;
 }

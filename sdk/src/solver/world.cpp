@@ -16,7 +16,7 @@ lks_world::lks_world(const lks_world_def& def)
       excess_time(static_cast<lks_excess_time>(def.excess_time)),
       keep_previous(def.keep_previous_positions != 0),
       worker_count(def.worker_count), gravity{def.gravity.x, def.gravity.y, def.gravity.z},
-      objects(allocator), colliders(allocator), assets(allocator), load_staging(allocator) {
+      objects(allocator), colliders(allocator), rigid(allocator), assets(allocator), load_staging(allocator) {
     for (lks::TickScratch& worker : scratch) {
         worker.candidates.set_allocator(allocator);
         worker.batches.set_allocator(allocator);
@@ -66,13 +66,23 @@ lks_result lks_world::stale_collider(lks_collider_id id) const {
                                                << " and generation " << id.generation << " in this world.");
 }
 
+bool lks_world::has_body(lks_body_id id) const {
+    return id.generation != 0 && id.index < rigid.body_slots.size() && rigid.body_slots[id.index].used &&
+           rigid.body_slots[id.index].generation == id.generation;
+}
+
+bool lks_world::has_joint(lks_joint_id id) const {
+    return id.generation != 0 && id.index < rigid.joint_slots.size() && rigid.joint_slots[id.index].used &&
+           rigid.joint_slots[id.index].generation == id.generation;
+}
+
 bool lks_world::reserve_colliders(std::size_t count) {
     for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
         if (!scratch[worker].candidates.reserve(count)) {
             return false;
         }
     }
-    return colliders.reserve(count);
+    return colliders.reserve(count) && rigid.reserve(rigid.bodies.capacity(), count);
 }
 
 const KnownAsset* lks_world::find_asset(std::uint64_t fingerprint) const {

@@ -12,6 +12,7 @@
 #include "collide/collider_motion.h"
 #include "kernels/kernels.h"
 #include "memory/array.h"
+#include "rigid/rigid_scene.h"
 #include "solver/object.h"
 #include "solver/step_rate.h"
 #include "solver/tick_scratch.h"
@@ -68,6 +69,7 @@ struct lks_world {
     lks::fixed::Vec3 gravity{}; // World, m/s²
     lks::Array<lks::ObjectSlot> objects;
     lks::Array<lks::ColliderSlot> colliders;
+    lks::RigidScene rigid;
 
     // Derived, or none of the simulation's business.
     lks::Array<lks::KnownAsset> assets;
@@ -86,6 +88,8 @@ struct lks_world {
     lks::Object* find_object(lks_object_id id) const;
     lks::ColliderState* find_collider(lks_collider_id id);
     const lks::ColliderState* find_collider(lks_collider_id id) const;
+    bool has_body(lks_body_id id) const;
+    bool has_joint(lks_joint_id id) const;
     lks_result stale_collider(lks_collider_id id) const;
 
     const lks::KnownAsset* find_asset(std::uint64_t fingerprint) const;

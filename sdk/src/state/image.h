@@ -3,6 +3,7 @@
 //     header     magic, versions, size, checksum, tick rate, substeps, iterations, counts, tick, gravity
 //     objects    one a slot: generation, used; then, for the used ones, the object
 //     colliders  one a slot: generation, used; then, for the used ones, the collider
+//     bodies, joints, contacts  state/rigid_image.h
 //
 // Every part is a multiple of 8 bytes. The checksum (XXH3) covers everything behind it. An object is its
 // settings, its pins, and its six arrays as they stand in memory.
@@ -16,7 +17,7 @@
 namespace lks {
 
 inline constexpr std::uint64_t image_magic = 0x3165746174736b4c; // "Lkstate1" as bytes
-inline constexpr std::uint32_t image_version = 1;
+inline constexpr std::uint32_t image_version = 2;
 
 struct ImageHeader {
     std::uint64_t magic;
@@ -30,11 +31,15 @@ struct ImageHeader {
     std::uint32_t reserved;
     std::uint32_t object_slots;
     std::uint32_t collider_slots;
+    std::uint32_t body_slots;
+    std::uint32_t joint_slots;
+    std::uint32_t contact_count;
+    std::uint32_t reserved_count; // 0
     std::uint64_t tick;
     fixed::Vec3 gravity;
 };
 
-inline constexpr std::size_t image_header_size = 32 + 24 + 8 + 24;
+inline constexpr std::size_t image_header_size = 32 + 24 + 16 + 8 + 24;
 inline constexpr std::size_t image_checked_from = 32;
 inline constexpr std::size_t image_slot_size = 8;
 inline constexpr std::size_t image_pin_size = 32;

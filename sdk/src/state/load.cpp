@@ -7,6 +7,7 @@
 #include "state/bytes.h"
 #include "state/hash.h"
 #include "state/image.h"
+#include "state/rigid_image.h"
 
 namespace lks {
 namespace {
@@ -41,6 +42,10 @@ ImageHeader read_header(ByteReader& in) {
     header.reserved = in.u32();
     header.object_slots = in.u32();
     header.collider_slots = in.u32();
+    header.body_slots = in.u32();
+    header.joint_slots = in.u32();
+    header.contact_count = in.u32();
+    header.reserved_count = in.u32();
     header.tick = in.u64();
     header.gravity = read_vector(in);
     return header;
@@ -135,8 +140,10 @@ lks_result check_header(const lks_world& world, const ImageHeader& header, const
     if (header.iterations != world.rate.iterations) {
         return foreign(world, "number of iterations", header.iterations, world.rate.iterations);
     }
-    if (header.reserved != 0 || header.object_slots > LKS_MAX_OBJECTS ||
-        header.collider_slots > LKS_MAX_COLLIDERS || !within(header.gravity, LKS_FIXED(1000))) {
+    if (header.reserved != 0 || header.reserved_count != 0 || header.body_slots > LKS_MAX_BODIES ||
+        header.joint_slots > LKS_MAX_JOINTS || header.contact_count > contact_capacity(header.body_slots) ||
+        header.object_slots > LKS_MAX_OBJECTS || header.collider_slots > LKS_MAX_COLLIDERS ||
+        !within(header.gravity, LKS_FIXED(1000))) {
         return corrupt(world, Sentence() << "A value in the image's header is out of range.");
     }
     return LKS_OK;
@@ -171,6 +178,12 @@ public:
                                Sentence() << "A value of collider " << i << " in the image is out of range.");
             }
         }
+        const char* what = "";
+        std::uint32_t index = 0;
+        if (!check_rigid(in, counts(), world_, what, index)) {
+            return corrupt(world_, Sentence() << "A value of " << what << " " << index
+                                              << " in the image is out of range.");
+        }
         if (!in.complete() || in.left() != 0) {
             return corrupt(world_, Sentence() << "The image's parts do not add up to its size.");
         }
@@ -204,14 +217,19 @@ public:
             }
             world_.colliders.push_reserved(slot);
         }
+        read_rigid(in, counts(), world_.rate, world_.rigid);
     }
 
 private:
     bool reserve() {
         return world_.load_staging.reserve(header_.object_slots) &&
                world_.objects.reserve(header_.object_slots) &&
-               world_.reserve_colliders(header_.collider_slots);
+               world_.reserve_colliders(header_.collider_slots) &&
+               world_.rigid.reserve(header_.body_slots, world_.colliders.capacity()) &&
+               world_.rigid.reserve_joints(header_.joint_slots);
     }
+
+    RigidCounts counts() const { return {header_.body_slots, header_.joint_slots, header_.contact_count}; }
 
     bool is_present(std::size_t slot, const Object* object) const {
         return slot < world_.objects.size() && world_.objects[slot].object == object;

@@ -1,6 +1,7 @@
 #include "state/bytes.h"
 #include "state/hash.h"
 #include "state/image.h"
+#include "state/rigid_image.h"
 
 namespace lks {
 namespace {
@@ -72,7 +73,7 @@ std::size_t image_size(const lks_world& world) {
     for (const ColliderSlot& slot : world.colliders) {
         size += slot.used ? image_collider_size : 0;
     }
-    return size;
+    return size + rigid_image_size(world.rigid);
 }
 
 void write_image(const lks_world& world, unsigned char* memory) {
@@ -84,6 +85,11 @@ void write_image(const lks_world& world, unsigned char* memory) {
     out.u32(0);
     out.u32(static_cast<std::uint32_t>(world.objects.size()));
     out.u32(static_cast<std::uint32_t>(world.colliders.size()));
+    const RigidCounts counts = rigid_counts(world.rigid);
+    out.u32(counts.bodies);
+    out.u32(counts.joints);
+    out.u32(counts.memories);
+    out.u32(0);
     out.u64(world.tick);
     write_vector(out, world.gravity);
     for (const ObjectSlot& slot : world.objects) {
@@ -100,6 +106,7 @@ void write_image(const lks_world& world, unsigned char* memory) {
             write_collider(out, slot.collider);
         }
     }
+    write_rigid(out, world.rigid);
     Hash checksum(*world.kernels);
     checksum.add_bytes(memory + image_checked_from, size - image_checked_from);
     ByteWriter front(memory);

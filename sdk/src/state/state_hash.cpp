@@ -1,6 +1,7 @@
 #include "state/state_hash.h"
 
 #include "state/hash.h"
+#include "state/rigid_image.h"
 
 namespace lks {
 namespace {
@@ -84,6 +85,7 @@ std::uint64_t hash_world(const lks_world& world, bool local) {
             add_collider(hash, slot.collider, local);
         }
     }
+    hash_rigid(hash, world.rigid, local);
     return hash.finish();
 }
 

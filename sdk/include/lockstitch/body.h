@@ -1,0 +1,115 @@
+/* Lockstitch: rigid bodies.
+ *
+ * A body is made of one to eight shapes with densities; mass, centre of mass and inertia follow from them. It
+ * is moved by forces, contacts and joints (dynamic), or goes where the game says (kinematic). Everything is
+ * fixed-point. Where in the world bodies are changes no bit of how they move.
+ *
+ * Method: extended position based dynamics (Müller et al. 2020) in substeps; a body's spin follows the
+ * implicit midpoint rule with Cayley's map, which keeps angular momentum and energy.
+ */
+#ifndef LOCKSTITCH_BODY_H
+#define LOCKSTITCH_BODY_H
+
+#include <lockstitch/collider.h>
+#include <lockstitch/world.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* By value; generation 0 is no body. */
+typedef struct lks_body_id {
+    uint32_t index;
+    uint32_t generation;
+} lks_body_id;
+
+#define LKS_MAX_BODIES 65536u
+#define LKS_MAX_BODY_SHAPES 8u
+
+typedef enum lks_body_kind {
+    LKS_BODY_DYNAMIC = 0,  /* has a mass, and is moved by what acts on it */
+    LKS_BODY_KINEMATIC = 1 /* infinitely heavy; moves by lks_body_move_to only */
+} lks_body_kind;
+
+typedef struct lks_body_shape {
+    uint32_t shape;          /* an lks_shape_kind: sphere, capsule or box */
+    uint32_t reserved;       /* 0 */
+    lks_transform transform; /* of the shape in the body's frame; position within ±30 m */
+    lks_fixed radius;        /* metres, 0.001 .. 30 */
+    lks_fixed half_length;   /* metres, 0 .. 30, of a capsule's axis along local y, without the caps */
+    lks_vec3 half_extents;   /* metres, 0.001 .. 30 each */
+    lks_fixed density;       /* kg/m³, 0.001 .. 100000 */
+} lks_body_shape;
+
+/* Shapes collide where each one's category is in the other's mask; bodies of the same group > 0 always do,
+ * of the same group < 0 never. */
+typedef struct lks_filter {
+    uint32_t category;
+    uint32_t mask;
+    int32_t group;
+} lks_filter;
+
+typedef struct lks_body_def {
+    uint32_t struct_size;      /* set by lks_default_body_def */
+    uint32_t kind;             /* an lks_body_kind */
+    lks_transform transform;   /* of the body's frame; position within ±8,388,000 m */
+    lks_vec3 velocity;         /* of the centre of mass, m/s, each axis within the speed limit */
+    lks_vec3 angular_velocity; /* rad/s in world axes, each axis within the spin limit */
+    const lks_body_shape* shapes;
+    uint32_t shape_count;       /* 1 .. LKS_MAX_BODY_SHAPES */
+    uint32_t reserved;          /* 0 */
+    lks_fixed mass;             /* kg, 0.000001 .. 1000000; 0: as the densities say */
+    lks_fixed gravity_factor;   /* on the world's gravity, -100 .. 100 */
+    lks_fixed linear_damping;   /* 1/s, 0 .. 1000 */
+    lks_fixed angular_damping;  /* 1/s, 0 .. 1000 */
+    lks_fixed static_friction;  /* 0 .. 100; of two surfaces the geometric mean counts */
+    lks_fixed dynamic_friction; /* 0 .. static_friction */
+    lks_fixed restitution;      /* 0 .. 1: the share of the normal speed that an impact gives back; of two
+                                   surfaces the greater counts */
+    lks_filter filter;
+} lks_body_def;
+
+/* Dynamic, at the origin, no shapes yet, friction 0.5 and 0.4, no restitution, category 1, mask of all. */
+LKS_API lks_body_def lks_default_body_def(void);
+/* A sphere of 0.5 m and 1000 kg/m³. */
+LKS_API lks_body_shape lks_default_body_shape(void);
+
+/* Takes the lowest free index. Bodies are solved in the order of their indices: the order in which bodies
+ * that meet are added is part of the simulation. */
+LKS_API lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_body_id* body);
+/* Joints on it are removed with it. */
+LKS_API lks_result lks_world_remove_body(lks_world* world, lks_body_id body);
+LKS_API uint32_t lks_world_has_body(const lks_world* world, lks_body_id body);
+LKS_API uint32_t lks_world_body_count(const lks_world* world);
+
+/* The speed limit of each axis of an angular velocity in rad/s: the lower of 1000 and one a substep. */
+LKS_API lks_fixed lks_world_spin_limit(const lks_world* world);
+
+/* Of the body's frame. The position is exact; the rotation is rounded to 2^-30. */
+LKS_API lks_result lks_body_transform(const lks_world* world, lks_body_id body, lks_transform* transform);
+/* Puts it there at once; its velocity stays. */
+LKS_API lks_result lks_body_set_transform(lks_world* world, lks_body_id body, lks_transform transform);
+/* m/s of the centre of mass, and rad/s, in world axes. Either may be null. */
+LKS_API lks_result lks_body_velocity(const lks_world* world, lks_body_id body, lks_vec3* velocity,
+                                     lks_vec3* angular_velocity);
+LKS_API lks_result lks_body_set_velocity(lks_world* world, lks_body_id body, lks_vec3 velocity,
+                                         lks_vec3 angular_velocity);
+/* N·s at a point of the world within 64 m of the body. A kinematic body takes none: the call succeeds and
+ * changes nothing. Beyond the limits the speeds are clamped. */
+LKS_API lks_result lks_body_apply_impulse(lks_world* world, lks_body_id body, lks_vec3 impulse,
+                                          lks_vec3 point);
+/* Where a kinematic body is to be at the end of the next tick; it gets there evenly over the substeps and
+ * rests there until the next call. At most 100 m and 90° a tick. */
+LKS_API lks_result lks_body_move_to(lks_world* world, lks_body_id body, lks_transform target);
+
+/* kg; 0 for a kinematic body. */
+LKS_API lks_result lks_body_mass(const lks_world* world, lks_body_id body, lks_fixed* mass);
+/* In the body's frame, metres. */
+LKS_API lks_result lks_body_centre_of_mass(const lks_world* world, lks_body_id body, lks_vec3* centre);
+/* Joules of all dynamic bodies: ½mv² + ½ωIω. Saturates at 8,388,607. */
+LKS_API lks_result lks_world_kinetic_energy(const lks_world* world, lks_fixed* energy);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

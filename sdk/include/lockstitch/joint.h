@@ -1,0 +1,80 @@
+/* Lockstitch: joints between rigid bodies.
+ *
+ * A joint has a frame in each of its two bodies. Its axis is the frames' local y, as a capsule's is; both
+ * frames fall together where the joint is at rest. Angles are degrees.
+ *
+ *   ball      the points stay together; the axes swing apart by at most swing_limit (a cone), and b is
+ *             twisted against a about its axis from twist_min to twist_max
+ *   hinge     the points and the axes stay together; b turns against a from twist_min to twist_max
+ *   fixed     nothing moves
+ *   distance  the points stay from distance_min to distance_max apart
+ *
+ * Method: extended position based dynamics (Müller et al. 2020); the points are brought together by a solve
+ * in all three directions at once.
+ */
+#ifndef LOCKSTITCH_JOINT_H
+#define LOCKSTITCH_JOINT_H
+
+#include <lockstitch/body.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lks_joint_id {
+    uint32_t index;
+    uint32_t generation; /* 0 is no joint */
+} lks_joint_id;
+
+#define LKS_MAX_JOINTS 65536u
+
+typedef enum lks_joint_kind {
+    LKS_JOINT_BALL = 0,
+    LKS_JOINT_HINGE = 1,
+    LKS_JOINT_FIXED = 2,
+    LKS_JOINT_DISTANCE = 3
+} lks_joint_kind;
+
+typedef struct lks_joint_def {
+    uint32_t struct_size; /* set by lks_default_joint_def */
+    uint32_t kind;        /* an lks_joint_kind */
+    lks_body_id body_a;   /* two different bodies, at least one of them dynamic */
+    lks_body_id body_b;
+    lks_transform frame_a;   /* in a's frame; positions within ±64 m */
+    lks_transform frame_b;   /* in b's frame */
+    uint32_t bodies_collide; /* 0: the two bodies don't collide with each other while the joint exists */
+    uint32_t reserved;       /* 0 */
+    lks_fixed swing_limit;   /* degrees, 0 .. 180; 180: none */
+    lks_fixed twist_min;     /* degrees, -180 .. twist_max; -180 and 180: none */
+    lks_fixed twist_max;     /* degrees, twist_min .. 180 */
+    lks_fixed distance_min;  /* metres, 0 .. distance_max */
+    lks_fixed distance_max;  /* metres, distance_min .. 64 */
+    lks_fixed compliance;    /* of the points, m/N, 0 .. 1000 */
+    lks_fixed friction;      /* N·m that resist turning, 0 .. 1000000 */
+} lks_joint_def;
+
+/* A ball joint without limits, at the origins of both bodies, which don't collide. */
+LKS_API lks_joint_def lks_default_joint_def(void);
+
+/* Takes the lowest free index; joints are solved in the order of their indices, before contacts. Both bodies
+ * are left where they are: what is apart is pulled together from the next tick on. */
+LKS_API lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_joint_id* joint);
+LKS_API lks_result lks_world_remove_joint(lks_world* world, lks_joint_id joint);
+LKS_API uint32_t lks_world_has_joint(const lks_world* world, lks_joint_id joint);
+LKS_API uint32_t lks_world_joint_count(const lks_world* world);
+
+/* How far the two points are from where the joint allows them, metres. */
+LKS_API lks_result lks_joint_error(const lks_world* world, lks_joint_id joint, lks_fixed* error);
+/* Degrees: how far the axes are apart, 0 .. 180, and how far b is twisted against a, -180 .. 180. Either may
+ * be null. */
+LKS_API lks_result lks_joint_angles(const lks_world* world, lks_joint_id joint, lks_fixed* swing,
+                                    lks_fixed* twist);
+/* What the joint does to body b, in world axes: newtons at the points, and newton metres; the mean over the
+ * last substep. a gets the opposite. Saturates at ±8,388,607. Either may be null. */
+LKS_API lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lks_vec3* force,
+                                  lks_vec3* torque);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

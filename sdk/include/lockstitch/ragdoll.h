@@ -1,0 +1,80 @@
+/* Lockstitch: ragdolls. A tree of bones, each a body with a joint to its parent, described once and put into
+ * a world as often as wanted.
+ *
+ * A description is plain data of the game's; a ragdoll in the world is its bodies and joints, whose ids the
+ * game keeps. Everything that bodies and joints can do, they can.
+ */
+#ifndef LOCKSTITCH_RAGDOLL_H
+#define LOCKSTITCH_RAGDOLL_H
+
+#include <lockstitch/joint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define LKS_MAX_BONES 256u
+#define LKS_NO_PARENT 0xffffffffu
+
+typedef struct lks_bone {
+    uint32_t parent;     /* an earlier bone, or LKS_NO_PARENT for the first one, the root */
+    uint32_t joint_kind; /* an lks_joint_kind: ball, hinge or fixed; of the root none */
+    /* Shapes, mass, surface. Its transform is the bone's in the ragdoll's frame, in the rest pose; velocities
+     * and the filter's group are ignored. */
+    lks_body_def body;
+    lks_transform joint_frame; /* in the ragdoll's frame, in the rest pose; its axis is local y */
+    lks_fixed swing_limit;     /* degrees, as in lks_joint_def */
+    lks_fixed twist_min;
+    lks_fixed twist_max;
+    lks_fixed friction; /* N·m of the joint */
+} lks_bone;
+
+typedef struct lks_ragdoll_def {
+    uint32_t struct_size; /* set by lks_default_ragdoll_def */
+    uint32_t bone_count;  /* 1 .. LKS_MAX_BONES */
+    const lks_bone* bones;
+    lks_transform transform; /* of the ragdoll's frame in the world */
+    lks_vec3 velocity;       /* of all bones, m/s */
+    lks_fixed scale;         /* of all lengths, 0.05 .. 20; masses go with its cube */
+    int32_t group;     /* of all bones' filters; 0: as the bones say. Less than zero: bones don't collide
+                          with each other at all, and otherwise all but neighbours do */
+    uint32_t reserved; /* 0 */
+} lks_ragdoll_def;
+
+LKS_API lks_bone lks_default_bone(void);
+LKS_API lks_ragdoll_def lks_default_ragdoll_def(void);
+
+/* Adds a body for each bone, and a joint from each bone but the root to its parent (body a). `bodies` has
+ * room for bone_count ids, `joints` for bone_count - 1 (null: not wanted). All or nothing. */
+LKS_API lks_result lks_world_add_ragdoll(lks_world* world, const lks_ragdoll_def* def, lks_body_id* bodies,
+                                         lks_joint_id* joints);
+
+/* A human of 1.8 m and 78 kg, standing on the plane y = 0 and facing +z, arms hanging: 15 bones with limits
+ * of a human's joints. */
+#define LKS_HUMANOID_BONES 15u
+typedef enum lks_humanoid_bone {
+    LKS_HUMANOID_PELVIS = 0,
+    LKS_HUMANOID_CHEST = 1,
+    LKS_HUMANOID_HEAD = 2,
+    LKS_HUMANOID_UPPER_ARM_LEFT = 3,
+    LKS_HUMANOID_LOWER_ARM_LEFT = 4,
+    LKS_HUMANOID_HAND_LEFT = 5,
+    LKS_HUMANOID_UPPER_ARM_RIGHT = 6,
+    LKS_HUMANOID_LOWER_ARM_RIGHT = 7,
+    LKS_HUMANOID_HAND_RIGHT = 8,
+    LKS_HUMANOID_UPPER_LEG_LEFT = 9,
+    LKS_HUMANOID_LOWER_LEG_LEFT = 10,
+    LKS_HUMANOID_FOOT_LEFT = 11,
+    LKS_HUMANOID_UPPER_LEG_RIGHT = 12,
+    LKS_HUMANOID_LOWER_LEG_RIGHT = 13,
+    LKS_HUMANOID_FOOT_RIGHT = 14
+} lks_humanoid_bone;
+
+/* Their shapes too: the bones point into `shapes`. */
+LKS_API lks_result lks_humanoid(lks_bone bones[LKS_HUMANOID_BONES],
+                                lks_body_shape shapes[LKS_HUMANOID_BONES]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,304 @@
+// lockstitch/body.h.
+#include <lockstitch/body.h>
+
+#include <algorithm>
+
+#include "api/body_checks.h"
+#include "collide/saturation.h"
+#include "rigid/body_motion.h"
+#include "rigid/make_body.h"
+
+using namespace lks;
+
+namespace {
+
+std::uint32_t free_index(const RigidScene& scene) {
+    std::uint32_t index = 0;
+    while (index < scene.body_slots.size() && scene.body_slots[index].used) {
+        ++index;
+    }
+    return index;
+}
+
+bool reserve_slot(lks_world& world, std::uint32_t index) {
+    if (index < world.rigid.bodies.capacity()) {
+        return true;
+    }
+    const std::size_t capacity = std::max<std::size_t>(16, 2 * world.rigid.bodies.size());
+    return world.rigid.reserve(capacity, world.colliders.capacity());
+}
+
+// What pushed the body is forgotten.
+void forget_contacts(RigidScene& scene, std::uint32_t body) {
+    for (std::size_t i = scene.memories.size(); i-- > 0;) {
+        const ContactKey& key = scene.memories[i].key;
+        if (key.body_a == body || key.other == body) {
+            scene.memories.erase(i);
+        }
+    }
+}
+
+void forget_joints(RigidScene& scene, std::uint32_t body) {
+    for (std::uint32_t i = 0; i < scene.joints.size(); ++i) {
+        const JointDescription& joint = scene.joints[i].description;
+        if (scene.joint_slots[i].used && (joint.body_a == body || joint.body_b == body)) {
+            scene.free_joint(i);
+        }
+    }
+    scene.follow_joints();
+}
+
+lks_transform transform_of(const Body& body, const BodyDescription& description) {
+    const fixed::Rotation q = narrow(body.orientation);
+    lks_transform transform{};
+    transform.position = from_vec3(frame_position(body, description));
+    transform.rotation = {q.x, q.y, q.z, q.w};
+    return transform;
+}
+
+} // namespace
+
+extern "C" {
+
+lks_body_def lks_default_body_def(void) {
+    lks_body_def def{};
+    def.struct_size = sizeof(lks_body_def);
+    def.kind = LKS_BODY_DYNAMIC;
+    def.transform.rotation.w = LKS_ROTATION_ONE;
+    def.gravity_factor = LKS_FIXED_ONE;
+    def.static_friction = LKS_FIXED_RATIO(1, 2);
+    def.dynamic_friction = LKS_FIXED_RATIO(4, 10);
+    def.filter = {1, 0xffffffffu, 0};
+    return def;
+}
+
+lks_body_shape lks_default_body_shape(void) {
+    lks_body_shape shape{};
+    shape.shape = LKS_SHAPE_SPHERE;
+    shape.transform.rotation.w = LKS_ROTATION_ONE;
+    shape.radius = LKS_FIXED_RATIO(1, 2);
+    shape.half_length = LKS_FIXED_RATIO(1, 2);
+    shape.half_extents = {LKS_FIXED_RATIO(1, 2), LKS_FIXED_RATIO(1, 2), LKS_FIXED_RATIO(1, 2)};
+    shape.density = LKS_FIXED(1000);
+    return shape;
+}
+
+lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_body_id* body) {
+    if (world == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (def == nullptr || body == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT,
+                           null_argument("lks_world_add_body", def == nullptr ? "def" : "body"));
+    }
+    if (def->struct_size != sizeof(lks_body_def)) {
+        return world->fail(LKS_ERROR_STRUCT_SIZE,
+                           wrong_struct_size("body_def", def->struct_size, sizeof(lks_body_def)));
+    }
+    if (const lks_result result = check_body_def(*world, *def); result != LKS_OK) {
+        return result;
+    }
+    RigidScene& scene = world->rigid;
+    const std::uint32_t index = free_index(scene);
+    if (index >= LKS_MAX_BODIES) {
+        return world->fail(LKS_ERROR_LIMIT, Sentence()
+                                                << "A world holds at most " << LKS_MAX_BODIES << " bodies.");
+    }
+    if (!reserve_slot(*world, index)) {
+        return world->fail_out_of_memory("a body");
+    }
+    if (index == scene.body_slots.size()) {
+        scene.body_slots.push_reserved(BodySlot{1, false});
+        scene.bodies.push_reserved(Body{});
+        scene.descriptions.push_reserved(BodyDescription{});
+    }
+    scene.descriptions[index] = describe_body(*def);
+    scene.bodies[index] = make_body(scene.descriptions[index], *def);
+    scene.body_slots[index].used = true;
+    *body = {index, scene.body_slots[index].generation};
+    return LKS_OK;
+}
+
+lks_result lks_world_remove_body(lks_world* world, lks_body_id body) {
+    if (const lks_result result = require_body(world, body); result != LKS_OK) {
+        return result;
+    }
+    RigidScene& scene = world->rigid;
+    forget_contacts(scene, body.index);
+    forget_joints(scene, body.index);
+    scene.bodies[body.index] = Body{};
+    scene.descriptions[body.index] = BodyDescription{};
+    BodySlot& slot = scene.body_slots[body.index];
+    slot.used = false;
+    slot.generation = slot.generation == UINT32_MAX ? 1 : slot.generation + 1;
+    return LKS_OK;
+}
+
+uint32_t lks_world_has_body(const lks_world* world, lks_body_id body) {
+    return world != nullptr && world->has_body(body) ? 1u : 0u;
+}
+
+uint32_t lks_world_body_count(const lks_world* world) {
+    std::uint32_t count = 0;
+    if (world != nullptr) {
+        for (const BodySlot& slot : world->rigid.body_slots) {
+            count += slot.used ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+lks_fixed lks_world_spin_limit(const lks_world* world) {
+    return world == nullptr ? 0 : body_spin_limit(world->rate);
+}
+
+lks_result lks_body_transform(const lks_world* world, lks_body_id body, lks_transform* transform) {
+    if (const lks_result result = require_body(world, body); result != LKS_OK) {
+        return result;
+    }
+    if (transform == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_body_transform", "transform"));
+    }
+    *transform = transform_of(world->rigid.bodies[body.index], world->rigid.descriptions[body.index]);
+    return LKS_OK;
+}
+
+lks_result lks_body_set_transform(lks_world* world, lks_body_id body, lks_transform transform) {
+    if (const lks_result result = require_body(world, body); result != LKS_OK) {
+        return result;
+    }
+    if (const lks_result result = check_body_transform(*world, transform); result != LKS_OK) {
+        return result;
+    }
+    RigidScene& scene = world->rigid;
+    forget_contacts(scene, body.index);
+    place_body(scene.bodies[body.index], scene.descriptions[body.index], to_vec3(transform.position),
+               fixed::normalise(to_rotation(transform.rotation)));
+    return LKS_OK;
+}
+
+lks_result lks_body_velocity(const lks_world* world, lks_body_id body, lks_vec3* velocity,
+                             lks_vec3* angular_velocity) {
+    if (const lks_result result = require_body(world, body); result != LKS_OK) {
+        return result;
+    }
+    const Body& found = world->rigid.bodies[body.index];
+    if (velocity != nullptr) {
+        *velocity = from_vec3(found.velocity);
+    }
+    if (angular_velocity != nullptr) {
+        *angular_velocity = from_vec3(found.angular_velocity);
+    }
+    return LKS_OK;
+}
+
+lks_result lks_body_set_velocity(lks_world* world, lks_body_id body, lks_vec3 velocity,
+                                 lks_vec3 angular_velocity) {
+    if (const lks_result result = require_body(world, body); result != LKS_OK) {
+        return result;
+    }
+    if (const lks_result result = check_body_velocities(*world, velocity, angular_velocity);
+        result != LKS_OK) {
+        return result;
+    }
+    Body& found = world->rigid.bodies[body.index];
+    if (!found.is_dynamic()) {
+        return world->fail(LKS_ERROR_UNSUPPORTED, Sentence()
+                                                      << "The body with index " << body.index
+                                                      << " is kinematic: it moves by lks_body_move_to only.");
+    }
+    found.velocity = to_vec3(velocity);
+    found.angular_velocity = to_vec3(angular_velocity);
+    return LKS_OK;
+}
+
+lks_result lks_body_apply_impulse(lks_world* world, lks_body_id body, lks_vec3 impulse, lks_vec3 point) {
+    if (const lks_result result = require_body(world, body); result != LKS_OK) {
+        return result;
+    }
+    Body& found = world->rigid.bodies[body.index];
+    const fixed::Vec3 lever = saturating_subtract(to_vec3(point), found.position);
+    if (!within(from_vec3(lever), LKS_FIXED(64))) {
+        return world->fail(LKS_ERROR_INVALID_ARGUMENT, out_of_range("impulse's distance from the body",
+                                                                    from_vec3(lever), "m", LKS_FIXED(64)));
+    }
+    if (!within(impulse, LKS_FIXED(8388607))) {
+        return world->fail(LKS_ERROR_INVALID_ARGUMENT,
+                           out_of_range("impulse", impulse, "N·s", LKS_FIXED(8388607)));
+    }
+    apply_impulse(found, to_vec3(impulse), lever);
+    world->counters.speed_clamps += clamp_vector(found.velocity, body_speed_limit(world->rate)) ? 1u : 0u;
+    world->counters.speed_clamps +=
+        clamp_vector(found.angular_velocity, body_spin_limit(world->rate)) ? 1u : 0u;
+    return LKS_OK;
+}
+
+lks_result lks_body_move_to(lks_world* world, lks_body_id body, lks_transform target) {
+    if (const lks_result result = require_body(world, body); result != LKS_OK) {
+        return result;
+    }
+    if (const lks_result result = check_body_transform(*world, target); result != LKS_OK) {
+        return result;
+    }
+    Body& found = world->rigid.bodies[body.index];
+    if (found.is_dynamic()) {
+        return world->fail(LKS_ERROR_UNSUPPORTED, Sentence()
+                                                      << "The body with index " << body.index
+                                                      << " is dynamic: only kinematic bodies are moved.");
+    }
+    const BodyDescription& description = world->rigid.descriptions[body.index];
+    Body there = found;
+    place_body(there, description, to_vec3(target.position), fixed::normalise(to_rotation(target.rotation)));
+    if (const lks_result result = check_body_motion(*world, found, there.position, narrow(there.orientation));
+        result != LKS_OK) {
+        return result;
+    }
+    found.target_position = there.position;
+    found.target_orientation = there.orientation;
+    return LKS_OK;
+}
+
+lks_result lks_body_mass(const lks_world* world, lks_body_id body, lks_fixed* mass) {
+    if (const lks_result result = require_body(world, body); result != LKS_OK) {
+        return result;
+    }
+    if (mass == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_body_mass", "mass"));
+    }
+    const BodyDescription& description = world->rigid.descriptions[body.index];
+    *mass = description.kind == LKS_BODY_KINEMATIC
+                ? 0
+                : description.properties.mass.to_i64_fixed(world_fraction_bits);
+    return LKS_OK;
+}
+
+lks_result lks_body_centre_of_mass(const lks_world* world, lks_body_id body, lks_vec3* centre) {
+    if (const lks_result result = require_body(world, body); result != LKS_OK) {
+        return result;
+    }
+    if (centre == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_body_centre_of_mass", "centre"));
+    }
+    *centre = from_vec3(world->rigid.descriptions[body.index].centre);
+    return LKS_OK;
+}
+
+lks_result lks_world_kinetic_energy(const lks_world* world, lks_fixed* energy) {
+    if (world == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (energy == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_world_kinetic_energy", "energy"));
+    }
+    fixed::Scaled sum;
+    const RigidScene& scene = world->rigid;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        if (scene.body_slots[i].used && scene.bodies[i].is_dynamic()) {
+            sum = sum + kinetic_energy(scene.bodies[i], scene.descriptions[i]);
+        }
+    }
+    *energy = std::min(sum.to_i64_fixed(world_fraction_bits), LKS_FIXED(8388607));
+    return LKS_OK;
+}
+
+} // extern "C"

@@ -1,0 +1,19 @@
+// The ranges of bodies.
+#pragma once
+
+#include "api/checks.h"
+
+namespace lks {
+
+lks_result check_body_def(const lks_world& world, const lks_body_def& def);
+// A transform of a body: a position within the world and a unit quaternion.
+lks_result check_body_transform(const lks_world& world, const lks_transform& transform);
+lks_result check_body_velocities(const lks_world& world, const lks_vec3& velocity, const lks_vec3& spin);
+// A kinematic motion of at most 100 m and 90° in one tick.
+lks_result check_body_motion(const lks_world& world, const Body& body, const fixed::Vec3& position,
+                             const fixed::Rotation& rotation);
+
+// The slot's index once the id is good; reported otherwise.
+lks_result require_body(const lks_world* world, lks_body_id id);
+
+} // namespace lks

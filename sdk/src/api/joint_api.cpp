@@ -1,0 +1,195 @@
+// lockstitch/joint.h.
+#include <lockstitch/joint.h>
+
+#include <algorithm>
+
+#include "api/joint_checks.h"
+#include "fixed/arc_tangent.h"
+#include "rigid/make_body.h"
+
+using namespace lks;
+
+namespace {
+
+std::uint32_t free_index(const RigidScene& scene) {
+    std::uint32_t index = 0;
+    while (index < scene.joint_slots.size() && scene.joint_slots[index].used) {
+        ++index;
+    }
+    return index;
+}
+
+JointDescription describe(const lks_joint_def& def, const RigidScene& scene) {
+    JointDescription d{};
+    d.kind = def.kind;
+    d.body_a = def.body_a.index;
+    d.body_b = def.body_b.index;
+    d.bodies_collide = def.bodies_collide;
+    d.point_a = to_vec3(def.frame_a.position) - scene.descriptions[d.body_a].centre;
+    d.point_b = to_vec3(def.frame_b.position) - scene.descriptions[d.body_b].centre;
+    d.frame_a = fixed::normalise(to_rotation(def.frame_a.rotation));
+    d.frame_b = fixed::normalise(to_rotation(def.frame_b.rotation));
+    d.swing_limit = def.swing_limit;
+    d.twist_min = def.twist_min;
+    d.twist_max = def.twist_max;
+    d.distance_min = def.distance_min;
+    d.distance_max = def.distance_max;
+    d.compliance = def.compliance;
+    d.friction = def.friction;
+    return d;
+}
+
+struct JointBodies {
+    const Body& a;
+    const Body& b;
+};
+
+JointBodies bodies_of(const lks_world& world, const Joint& joint) {
+    return {world.rigid.bodies[joint.description.body_a], world.rigid.bodies[joint.description.body_b]};
+}
+
+lks_fixed to_degrees(std::int64_t radians) {
+    return fixed::multiply_divide(radians, LKS_FIXED(180), fixed::half_circle);
+}
+
+// value · factor with its sign, saturating.
+lks_vec3 times(const fixed::Vec3& v, const fixed::Scaled& factor) {
+    const auto part = [&](std::int64_t c) {
+        const fixed::Scaled size =
+            fixed::Scaled::from_fixed(fixed::magnitude(c), world_fraction_bits) * factor;
+        const std::int64_t value = std::min(size.to_i64_fixed(world_fraction_bits), LKS_FIXED(8388607));
+        return c < 0 ? -value : value;
+    };
+    return {part(v.x), part(v.y), part(v.z)};
+}
+
+} // namespace
+
+extern "C" {
+
+lks_joint_def lks_default_joint_def(void) {
+    lks_joint_def def{};
+    def.struct_size = sizeof(lks_joint_def);
+    def.kind = LKS_JOINT_BALL;
+    def.frame_a.rotation.w = LKS_ROTATION_ONE;
+    def.frame_b.rotation.w = LKS_ROTATION_ONE;
+    def.swing_limit = LKS_FIXED(180);
+    def.twist_min = -LKS_FIXED(180);
+    def.twist_max = LKS_FIXED(180);
+    return def;
+}
+
+lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_joint_id* joint) {
+    if (world == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (def == nullptr || joint == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT,
+                           null_argument("lks_world_add_joint", def == nullptr ? "def" : "joint"));
+    }
+    if (def->struct_size != sizeof(lks_joint_def)) {
+        return world->fail(LKS_ERROR_STRUCT_SIZE,
+                           wrong_struct_size("joint_def", def->struct_size, sizeof(lks_joint_def)));
+    }
+    if (const lks_result result = check_joint_def(*world, *def); result != LKS_OK) {
+        return result;
+    }
+    RigidScene& scene = world->rigid;
+    const std::uint32_t index = free_index(scene);
+    if (index >= LKS_MAX_JOINTS) {
+        return world->fail(LKS_ERROR_LIMIT, Sentence()
+                                                << "A world holds at most " << LKS_MAX_JOINTS << " joints.");
+    }
+    if (index >= scene.joints.capacity() &&
+        !scene.reserve_joints(std::max<std::size_t>(16, 2 * scene.joints.size()))) {
+        return world->fail_out_of_memory("a joint");
+    }
+    if (index == scene.joint_slots.size()) {
+        scene.joint_slots.push_reserved(JointSlot{1, false});
+        scene.joints.push_reserved(Joint{});
+    }
+    Joint& made = scene.joints[index];
+    made.description = describe(*def, scene);
+    const JointBodies bodies = bodies_of(*world, made);
+    made.constants = make_joint_constants(made.description, bodies.a, bodies.b, world->rate);
+    scene.joint_slots[index].used = true;
+    scene.follow_joints();
+    *joint = {index, scene.joint_slots[index].generation};
+    return LKS_OK;
+}
+
+lks_result lks_world_remove_joint(lks_world* world, lks_joint_id joint) {
+    if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
+        return result;
+    }
+    world->rigid.free_joint(joint.index);
+    world->rigid.follow_joints();
+    return LKS_OK;
+}
+
+uint32_t lks_world_has_joint(const lks_world* world, lks_joint_id joint) {
+    return world != nullptr && world->has_joint(joint) ? 1u : 0u;
+}
+
+uint32_t lks_world_joint_count(const lks_world* world) {
+    std::uint32_t count = 0;
+    if (world != nullptr) {
+        for (const JointSlot& slot : world->rigid.joint_slots) {
+            count += slot.used ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+lks_result lks_joint_error(const lks_world* world, lks_joint_id joint, lks_fixed* error) {
+    if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
+        return result;
+    }
+    if (error == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_joint_error", "error"));
+    }
+    const Joint& found = world->rigid.joints[joint.index];
+    const JointBodies bodies = bodies_of(*world, found);
+    const auto distance = static_cast<std::int64_t>(fixed::length(joint_offset(found, bodies.a, bodies.b)));
+    const JointDescription& d = found.description;
+    *error = d.kind == LKS_JOINT_DISTANCE
+                 ? std::max<std::int64_t>({distance - d.distance_max, d.distance_min - distance, 0})
+                 : distance;
+    return LKS_OK;
+}
+
+lks_result lks_joint_angles(const lks_world* world, lks_joint_id joint, lks_fixed* swing, lks_fixed* twist) {
+    if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
+        return result;
+    }
+    const Joint& found = world->rigid.joints[joint.index];
+    const JointBodies bodies = bodies_of(*world, found);
+    const JointAngles angles = joint_angles(found, bodies.a, bodies.b);
+    if (swing != nullptr) {
+        *swing = to_degrees(angles.swing);
+    }
+    if (twist != nullptr) {
+        *twist = to_degrees(angles.twist);
+    }
+    return LKS_OK;
+}
+
+lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lks_vec3* force, lks_vec3* torque) {
+    if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
+        return result;
+    }
+    const Joint& found = world->rigid.joints[joint.index];
+    const JointBodies bodies = bodies_of(*world, found);
+    const fixed::Scaled inverse_h = world->rate.inverse_h();
+    const bool a_greater = found.constants.shares.a == direction_one;
+    const fixed::Scaled factor = inverse_h * inverse_h / inverse_mass(a_greater ? bodies.a : bodies.b);
+    if (force != nullptr) {
+        *force = times(found.push, factor);
+    }
+    if (torque != nullptr) {
+        *torque = times(found.turn, factor.times_power_of_two(2 * found.constants.reach));
+    }
+    return LKS_OK;
+}
+
+} // extern "C"

@@ -1,0 +1,12 @@
+// The ranges of joints.
+#pragma once
+
+#include "api/checks.h"
+
+namespace lks {
+
+lks_result check_joint_def(const lks_world& world, const lks_joint_def& def);
+// LKS_OK, or reported: no such joint.
+lks_result require_joint(const lks_world* world, lks_joint_id id);
+
+} // namespace lks

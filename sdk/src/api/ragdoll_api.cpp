@@ -1,0 +1,243 @@
+// lockstitch/ragdoll.h.
+#include <lockstitch/ragdoll.h>
+
+#include "api/body_checks.h"
+#include "fixed/formats.h"
+
+using namespace lks;
+
+namespace {
+
+fixed::Vec3 scaled(const lks_vec3& v, lks_fixed scale) {
+    return {fixed::multiply_divide(v.x, scale, LKS_FIXED_ONE),
+            fixed::multiply_divide(v.y, scale, LKS_FIXED_ONE),
+            fixed::multiply_divide(v.z, scale, LKS_FIXED_ONE)};
+}
+
+lks_fixed scaled(lks_fixed value, lks_fixed scale) {
+    return fixed::multiply_divide(value, scale, LKS_FIXED_ONE);
+}
+
+// The ragdoll's frame in the world.
+struct Placement {
+    explicit Placement(const lks_ragdoll_def& def)
+        : position(to_vec3(def.transform.position)),
+          rotation(fixed::normalise(to_rotation(def.transform.rotation))), matrix(fixed::to_matrix(rotation)),
+          scale(def.scale) {}
+
+    lks_transform place(const lks_transform& local) const {
+        const fixed::Vec3 p = position + fixed::rotate(matrix, scaled(local.position, scale));
+        const fixed::Rotation q =
+            fixed::normalise(fixed::multiply(rotation, fixed::normalise(to_rotation(local.rotation))));
+        return {from_vec3(p), {q.x, q.y, q.z, q.w}};
+    }
+
+    fixed::Vec3 position;
+    fixed::Rotation rotation;
+    fixed::Matrix3 matrix;
+    lks_fixed scale;
+};
+
+// One bone's body as it goes into the world; `shapes` has room for LKS_MAX_BODY_SHAPES.
+lks_body_def make_body_def(const lks_ragdoll_def& def, const lks_bone& bone, const Placement& placement,
+                           lks_body_shape* shapes) {
+    lks_body_def body = bone.body;
+    for (std::uint32_t i = 0; i < body.shape_count; ++i) {
+        lks_body_shape& shape = shapes[i];
+        shape = bone.body.shapes[i];
+        shape.transform.position = from_vec3(scaled(shape.transform.position, def.scale));
+        shape.radius = scaled(shape.radius, def.scale);
+        shape.half_length = scaled(shape.half_length, def.scale);
+        shape.half_extents = from_vec3(scaled(shape.half_extents, def.scale));
+    }
+    body.shapes = shapes;
+    body.mass = scaled(scaled(scaled(body.mass, def.scale), def.scale), def.scale);
+    body.transform = placement.place(bone.body.transform);
+    body.velocity = def.velocity;
+    body.angular_velocity = {0, 0, 0};
+    body.filter.group = def.group;
+    return body;
+}
+
+// A transform of the world in a body's frame.
+lks_transform relative(const lks_transform& body, const lks_transform& world) {
+    const fixed::Rotation q = fixed::normalise(to_rotation(body.rotation));
+    const fixed::Vec3 p =
+        fixed::rotate_transposed(fixed::to_matrix(q), to_vec3(world.position) - to_vec3(body.position));
+    const fixed::Rotation r =
+        fixed::normalise(fixed::multiply(fixed::conjugate(q), to_rotation(world.rotation)));
+    return {from_vec3(p), {r.x, r.y, r.z, r.w}};
+}
+
+lks_joint_def make_joint_def(const lks_bone& bone, const Placement& placement, const lks_transform& parent,
+                             const lks_transform& child) {
+    lks_joint_def joint = lks_default_joint_def();
+    joint.kind = bone.joint_kind;
+    const lks_transform frame = placement.place(bone.joint_frame);
+    joint.frame_a = relative(parent, frame);
+    joint.frame_b = relative(child, frame);
+    joint.swing_limit = bone.swing_limit;
+    joint.twist_min = bone.twist_min;
+    joint.twist_max = bone.twist_max;
+    joint.friction = bone.friction;
+    return joint;
+}
+
+lks_result check_bone(const lks_world& world, const lks_ragdoll_def& def, std::uint32_t index) {
+    const lks_bone& bone = def.bones[index];
+    if (index == 0 ? bone.parent != LKS_NO_PARENT : bone.parent >= index) {
+        return world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                          Sentence() << "Bone " << index << " has the parent " << bone.parent
+                                     << (index == 0 ? "; the first bone is the root and has none."
+                                                    : "; a parent is an earlier bone."));
+    }
+    if (bone.joint_kind > LKS_JOINT_FIXED) {
+        return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "Bone " << index << " has the joint kind "
+                                                                 << bone.joint_kind
+                                                                 << "; the kinds of bones are 0 to 2.");
+    }
+    if (!within(bone.joint_frame.position, LKS_FIXED(30)) ||
+        !within(bone.body.transform.position, LKS_FIXED(30))) {
+        return world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                          Sentence() << "Bone " << index
+                                     << " or its joint lies more than 30 m from the ragdoll.");
+    }
+    for (const lks_rotation& rotation : {bone.joint_frame.rotation, bone.body.transform.rotation}) {
+        if (const lks_result result = check_rotation(world, rotation); result != LKS_OK) {
+            return result;
+        }
+    }
+    if (bone.body.shape_count > LKS_MAX_BODY_SHAPES || bone.body.shapes == nullptr) {
+        return check_body_def(world, bone.body);
+    }
+    lks_body_shape shapes[LKS_MAX_BODY_SHAPES];
+    return check_body_def(world, make_body_def(def, bone, Placement(def), shapes));
+}
+
+lks_result check_limits(const lks_world& world, const lks_bone& bone) {
+    constexpr lks_fixed half_circle = LKS_FIXED(180);
+    struct Limit {
+        const char* name;
+        lks_fixed value;
+        lks_fixed least;
+        lks_fixed greatest;
+    };
+    for (const Limit& limit : {Limit{"swing_limit", bone.swing_limit, 0, half_circle},
+                               Limit{"twist_max", bone.twist_max, -half_circle, half_circle},
+                               Limit{"twist_min", bone.twist_min, -half_circle, bone.twist_max},
+                               Limit{"friction", bone.friction, 0, LKS_FIXED(1000000)}}) {
+        if (limit.value < limit.least || limit.value > limit.greatest) {
+            return world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                              out_of_range(limit.name, limit.value, "", limit.least, limit.greatest));
+        }
+    }
+    return LKS_OK;
+}
+
+lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
+    if (def.struct_size != sizeof(lks_ragdoll_def)) {
+        return world.fail(LKS_ERROR_STRUCT_SIZE,
+                          wrong_struct_size("ragdoll_def", def.struct_size, sizeof(lks_ragdoll_def)));
+    }
+    if (def.bone_count < 1 || def.bone_count > LKS_MAX_BONES || def.bones == nullptr || def.reserved != 0) {
+        return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence()
+                                                          << "The ragdoll has " << def.bone_count
+                                                          << " bones, its reserved field is " << def.reserved
+                                                          << "; it needs from 1 to " << LKS_MAX_BONES
+                                                          << " bones that are not null, and 0.");
+    }
+    if (def.scale < LKS_FIXED_RATIO(5, 100) || def.scale > LKS_FIXED(20)) {
+        return world.fail(LKS_ERROR_INVALID_ARGUMENT, out_of_range("ragdoll's scale", def.scale, "",
+                                                                   LKS_FIXED_RATIO(5, 100), LKS_FIXED(20)));
+    }
+    if (const lks_result result = check_body_transform(world, def.transform); result != LKS_OK) {
+        return result;
+    }
+    for (std::uint32_t i = 0; i < def.bone_count; ++i) {
+        if (const lks_result result = check_bone(world, def, i); result != LKS_OK) {
+            return result;
+        }
+        if (const lks_result result = check_limits(world, def.bones[i]); i > 0 && result != LKS_OK) {
+            return result;
+        }
+    }
+    const RigidScene& scene = world.rigid;
+    if (scene.bodies.size() + def.bone_count > LKS_MAX_BODIES ||
+        scene.joints.size() + def.bone_count > LKS_MAX_JOINTS) {
+        return world.fail(LKS_ERROR_LIMIT, Sentence() << "A world holds at most " << LKS_MAX_BODIES
+                                                      << " bodies and " << LKS_MAX_JOINTS << " joints.");
+    }
+    return LKS_OK;
+}
+
+// Grows by half again at least, so that many ragdolls cost no more than their number.
+bool reserve(lks_world& world, std::uint32_t bones) {
+    RigidScene& scene = world.rigid;
+    const auto room = [bones](std::size_t size, std::size_t capacity) {
+        return size + bones <= capacity ? capacity : 2 * size + bones;
+    };
+    return scene.reserve(room(scene.bodies.size(), scene.bodies.capacity()), world.colliders.capacity()) &&
+           scene.reserve_joints(room(scene.joints.size(), scene.joints.capacity()));
+}
+
+} // namespace
+
+extern "C" {
+
+lks_bone lks_default_bone(void) {
+    lks_bone bone{};
+    bone.parent = LKS_NO_PARENT;
+    bone.body = lks_default_body_def();
+    bone.joint_frame.rotation.w = LKS_ROTATION_ONE;
+    bone.swing_limit = LKS_FIXED(180);
+    bone.twist_min = -LKS_FIXED(180);
+    bone.twist_max = LKS_FIXED(180);
+    return bone;
+}
+
+lks_ragdoll_def lks_default_ragdoll_def(void) {
+    lks_ragdoll_def def{};
+    def.struct_size = sizeof(lks_ragdoll_def);
+    def.transform.rotation.w = LKS_ROTATION_ONE;
+    def.scale = LKS_FIXED_ONE;
+    return def;
+}
+
+lks_result lks_world_add_ragdoll(lks_world* world, const lks_ragdoll_def* def, lks_body_id* bodies,
+                                 lks_joint_id* joints) {
+    if (world == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (def == nullptr || bodies == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT,
+                           null_argument("lks_world_add_ragdoll", def == nullptr ? "def" : "bodies"));
+    }
+    if (const lks_result result = check_ragdoll(*world, *def); result != LKS_OK) {
+        return result;
+    }
+    if (!reserve(*world, def->bone_count)) {
+        return world->fail_out_of_memory("a ragdoll");
+    }
+    // Everything was checked and has its room: none of these can fail.
+    const Placement placement(*def);
+    for (std::uint32_t i = 0; i < def->bone_count; ++i) {
+        const lks_bone& bone = def->bones[i];
+        lks_body_shape shapes[LKS_MAX_BODY_SHAPES];
+        const lks_body_def body = make_body_def(*def, bone, placement, shapes);
+        lks_world_add_body(world, &body, &bodies[i]);
+        if (i > 0) {
+            lks_joint_def joint = make_joint_def(
+                bone, placement, placement.place(def->bones[bone.parent].body.transform), body.transform);
+            joint.body_a = bodies[bone.parent];
+            joint.body_b = bodies[i];
+            lks_joint_id added{};
+            lks_world_add_joint(world, &joint, &added);
+            if (joints != nullptr) {
+                joints[i - 1] = added;
+            }
+        }
+    }
+    return LKS_OK;
+}
+
+} // extern "C"

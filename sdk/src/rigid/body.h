@@ -1,0 +1,80 @@
+// A rigid body: what it is, and where and how fast it is.
+#pragma once
+
+#include <lockstitch/body.h>
+
+#include <cstdint>
+
+#include "rigid/inertia.h"
+#include "rigid/quaternion.h"
+
+namespace lks {
+
+// The inverse of a mass: mantissa · 2^exponent 1/kg, the mantissa with its 31st bit set; zero for infinitely
+// heavy ones.
+struct InverseMass {
+    std::uint32_t mantissa;
+    std::int32_t exponent;
+
+    friend constexpr bool operator==(const InverseMass&, const InverseMass&) = default;
+};
+
+struct Surface {
+    std::int64_t static_friction; // World
+    std::int64_t dynamic_friction;
+    std::int64_t restitution;
+};
+
+// What a body is: fixed from the start.
+struct BodyDescription {
+    std::uint32_t kind; // lks_body_kind
+    std::uint32_t shape_count;
+    BodyShape shapes[LKS_MAX_BODY_SHAPES]; // around the centre of mass
+    MassProperties properties;
+    fixed::Vec3 centre;      // World: the centre of mass in the frame that the game gave
+    std::int64_t given_mass; // World; 0: as the densities say
+    std::int64_t radius;     // World: of a ball about the centre of mass with all shapes in it
+    Surface surface;
+    lks_filter filter;
+    std::int64_t gravity_factor;
+    std::int64_t linear_damping;
+    std::int64_t angular_damping;
+};
+
+// Where and how fast it is, and what every constraint on it needs.
+struct Body {
+    // Copied from the description.
+    InverseMass inverse_mass; // zero: kinematic
+    std::int32_t scale;
+    std::int32_t inverse_shift;
+    SymmetricMatrix inverse_inertia; // in its own axes
+
+    // State.
+    fixed::Vec3 position; // World, of the centre of mass
+    Quaternion orientation;
+    fixed::Vec3 velocity;         // World, m/s
+    fixed::Vec3 angular_velocity; // World, rad/s, in world axes
+    // Kinematic: at the end of the next tick.
+    fixed::Vec3 target_position;
+    Quaternion target_orientation;
+
+    // For views: at the tick before.
+    fixed::Vec3 previous_position;
+    fixed::Rotation previous_rotation;
+
+    // Of the tick and the substep at work.
+    fixed::Vec3 tick_position;
+    Quaternion tick_orientation;
+    fixed::Vec3 start_position;
+    fixed::Vec3 predicted_position;
+    Quaternion start_orientation;
+    Quaternion predicted_orientation;
+    fixed::Matrix3 rotation;       // of `orientation`
+    SymmetricMatrix world_inverse; // inverse_inertia in world axes at the predicted pose
+
+    bool is_dynamic() const { return inverse_mass.mantissa != 0; }
+    // After `orientation` has changed.
+    void follow_orientation() { rotation = fixed::to_matrix(narrow(orientation)); }
+};
+
+} // namespace lks

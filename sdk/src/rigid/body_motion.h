@@ -1,0 +1,48 @@
+// How a body moves by itself: the prediction at the start of a substep, and the velocities at its end.
+//
+// Where no constraint has moved a body its velocities are what they were predicted to be, to the bit. Its
+// spin follows the implicit midpoint rule in body axes, Ω_mid = Ω + I⁻¹(IΩ_mid × hΩ_mid/2), and turns it by
+// Cayley's map of hΩ_mid, which keeps angular momentum and energy (Austin, Krishnaprasad, Wang 1993).
+#pragma once
+
+#include "rigid/body.h"
+#include "solver/step_rate.h"
+
+namespace lks {
+
+// What is the same for all bodies in a tick.
+struct MotionRate {
+    explicit MotionRate(const StepRate& rate);
+
+    std::int64_t substeps_per_second; // n = 1/h
+    std::int64_t half_turn_factor;    // 2^59 / n: World rad/s to Turn half turns, with 40 bits more
+    std::int64_t speed_limit;         // World, m/s an axis
+    std::int64_t spin_limit;          // World, rad/s an axis
+};
+
+// World: the lower of 1000 m/s and 16 m a substep; the lower of 1000 rad/s and one rad a substep.
+std::int64_t body_speed_limit(const StepRate& rate);
+std::int64_t body_spin_limit(const StepRate& rate);
+
+// Of one body in one tick.
+struct BodyTick {
+    fixed::Vec3 gravity_step;  // World: the velocity that gravity adds in a substep
+    std::uint32_t linear_kept; // Unit: what damping leaves in a substep
+    std::uint32_t angular_kept;
+};
+
+BodyTick make_body_tick(const BodyDescription& description, const StepRate& rate, const fixed::Vec3& gravity);
+
+// Dynamic bodies: start of a substep. Clamped speeds are counted.
+void predict_body(Body& body, const BodyDescription& description, const BodyTick& tick,
+                  const MotionRate& rate, std::uint64_t& speed_clamps);
+// Kinematic bodies: to where they are at the end of this substep, 1 .. substeps.
+void place_kinematic(Body& body, std::uint32_t substep, std::uint32_t substeps, const MotionRate& rate);
+// End of a substep.
+void finish_body(Body& body, const BodyDescription& description, const MotionRate& rate,
+                 std::uint64_t& speed_clamps);
+
+// Each axis within ±limit; true where one was not.
+bool clamp_vector(fixed::Vec3& value, std::int64_t limit);
+
+} // namespace lks

@@ -1,0 +1,320 @@
+#include "rigid/contact.h"
+
+#include <algorithm>
+
+#include "collide/saturation.h"
+
+namespace lks {
+namespace {
+
+using fixed::Direction;
+using fixed::Vec3;
+
+// Overlaps up to this stay: half a millimetre.
+constexpr std::int64_t allowed_overlap = (std::int64_t{1} << world_fraction_bits) / 2000;
+// Beyond a push of a quarter of a metre friction grows no more.
+constexpr std::int64_t greatest_gripping_push = std::int64_t{1} << (world_fraction_bits - 2);
+
+Vec3 cross(const Vec3& spin, const Vec3& lever) {
+    // World · World; levers below 64 m are cut to 24 bits behind the point, spins below 1700 rad/s to 22.
+    const auto m = [](std::int64_t a, std::int64_t b) { return (a >> 18) * (b >> 16) >> 6; };
+    return {m(spin.y, lever.z) - m(spin.z, lever.y), m(spin.z, lever.x) - m(spin.x, lever.z),
+            m(spin.x, lever.y) - m(spin.y, lever.x)};
+}
+
+Vec3 velocity_at(const Body& body, const Vec3& lever) {
+    return body.velocity + cross(body.angular_velocity, lever);
+}
+
+// Two directions across n, and across each other.
+void span(const Direction& n, Direction (&across)[2]) {
+    const auto size = [](std::int32_t c) { return c < 0 ? -c : c; };
+    const Vec3 u = size(n.x) < size(n.y) ? Vec3{0, -n.z, n.y} : Vec3{-n.z, 0, n.x};
+    fixed::NormalisedVector way{};
+    fixed::normalise(u, way);
+    across[0] = way.direction;
+    const Direction& a = across[0];
+    const auto part = [](std::int64_t c) {
+        return static_cast<std::int32_t>(
+            std::clamp<std::int64_t>(fixed::shift_right_rounded(c, 30), -direction_one, direction_one));
+    };
+    across[1] = {part(std::int64_t{n.y} * a.z - std::int64_t{n.z} * a.y),
+                 part(std::int64_t{n.z} * a.x - std::int64_t{n.x} * a.z),
+                 part(std::int64_t{n.x} * a.y - std::int64_t{n.y} * a.x)};
+}
+
+// From a point of a to a point of b, in world axes.
+Vec3 distance_now(const Body& a, const Vec3& on_a, const Body& b, const Vec3& on_b) {
+    return (b.position - a.position) + fixed::rotate(b.rotation, on_b) - fixed::rotate(a.rotation, on_a);
+}
+
+// How much the surfaces have parted along the normal in this substep, less what was open at its beginning.
+// Round surfaces part as their cores do, however they turn.
+std::int64_t gap_now(const Contact& contact, const ContactPoint& point, const Body& a, const Body& b) {
+    const Vec3 motion = distance_now(a, point.core_a, b, point.core_b) - point.core_start;
+    return fixed::dot(contact.normal, motion) + std::max<std::int64_t>(point.separation, 0);
+}
+
+Inverse make_row(const ContactBodies& bodies, const PairShares& shares, const Direction& direction,
+                 const Vec3& lever_a, const Vec3& lever_b, RowSide& side_a, RowSide& side_b) {
+    std::int64_t weight = 0;
+    side_a = push_side(bodies.a, shares.a, direction, lever_a, weight);
+    side_b = push_side(bodies.b, shares.b, direction, lever_b, weight);
+    return invert(weight);
+}
+
+// A push along the row's direction: b forward, a back.
+void push_apart(ContactBodies bodies, const RowSide& a, const RowSide& b, const Direction& direction,
+                std::int64_t p) {
+    if (p == 0) {
+        return;
+    }
+    const Vec3 along = fixed::scale(direction, p);
+    push(bodies.a, a, along, p, -1);
+    push(bodies.b, b, along, p, 1);
+}
+
+std::int64_t grip(std::int64_t push, std::uint32_t friction) {
+    return (std::min(push, greatest_gripping_push) * std::int64_t{friction}) >> 18;
+}
+
+// What the points of a contact pushed before, to be handed on.
+class OldPushes {
+public:
+    void add(const ContactPush& push) { pushes_[count_++] = push; }
+
+    bool take_feature(std::uint32_t feature, ContactPush& to) {
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            if (pushes_[i].feature == feature) {
+                take(i, to);
+                return true;
+            }
+        }
+        return false;
+    }
+
+    void take_nearest(ContactPush& to) {
+        constexpr std::int64_t near = (std::int64_t{1} << world_fraction_bits) / 10;
+        std::uint32_t best = count_;
+        std::int64_t least = near;
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const std::int64_t distance = sum_of_magnitudes(pushes_[i].place - to.place);
+            if (distance < least) {
+                least = distance;
+                best = i;
+            }
+        }
+        if (best < count_) {
+            take(best, to);
+        }
+    }
+
+private:
+    void take(std::uint32_t i, ContactPush& to) {
+        to.normal = pushes_[i].normal;
+        to.across[0] = pushes_[i].across[0];
+        to.across[1] = pushes_[i].across[1];
+        pushes_[i] = pushes_[--count_];
+    }
+
+    ContactPush pushes_[greatest_point_count];
+    std::uint32_t count_ = 0;
+};
+
+// Both rows across the normal at once, within the circle that the normal's push allows.
+void project_friction(Contact& contact, ContactPoint& point, ContactBodies bodies) {
+    const Vec3 motion = distance_now(bodies.a, point.material_a, bodies.b, point.material_b) - point.start;
+    std::int64_t wanted[2];
+    for (int i = 0; i < 2; ++i) {
+        wanted[i] =
+            point.push.across[i] - divide(fixed::dot(contact.across[i], motion), point.across_inverse[i]);
+    }
+    const std::int64_t most = grip(point.push.normal, contact.static_friction);
+    fixed::NormalisedVector size{};
+    if (fixed::normalise(Vec3{wanted[0], wanted[1], 0}, size) && size.length > most) {
+        const std::int64_t sliding = grip(point.push.normal, contact.dynamic_friction);
+        wanted[0] = fixed::scale_component(size.direction.x, sliding);
+        wanted[1] = fixed::scale_component(size.direction.y, sliding);
+    }
+    for (int i = 0; i < 2; ++i) {
+        const std::int64_t more = wanted[i] - point.push.across[i];
+        point.push.across[i] = wanted[i];
+        push_apart(bodies, point.across_a[i], point.across_b[i], contact.across[i], more);
+    }
+}
+
+// Where the surfaces meet now, from each centre of mass in world axes. A round surface has turned away under
+// that place: the material point there at the beginning would give the push an arm that it hasn't got.
+struct Levers {
+    Vec3 a, b;
+};
+
+Levers levers_now(const Contact& contact, const ContactPoint& point, const Body& a, const Body& b) {
+    return {fixed::rotate(a.rotation, point.core_a) + fixed::scale(contact.normal, contact.radius_a),
+            fixed::rotate(b.rotation, point.core_b) - fixed::scale(contact.normal, contact.radius_b)};
+}
+
+} // namespace
+
+std::uint32_t combined_friction(std::int64_t a, std::int64_t b) {
+    const fixed::UInt128 product = fixed::multiply_unsigned(fixed::magnitude(a), fixed::magnitude(b));
+    const std::uint64_t root = fixed::square_root(product); // World
+    return static_cast<std::uint32_t>(fixed::shift_right_rounded(root, world_fraction_bits - 18));
+}
+
+void take_manifold(Contact& contact, const Manifold& manifold, const Body& a, const Body& b) {
+    OldPushes old;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        old.add(contact.points[i].push);
+    }
+    contact.normal = manifold.normal;
+    contact.count = manifold.count;
+    span(contact.normal, contact.across);
+    for (std::uint32_t i = 0; i < manifold.count; ++i) {
+        const ManifoldPoint& from = manifold.points[i];
+        ContactPoint& to = contact.points[i];
+        // Manifolds are relative to a's centre of mass.
+        to.core_a = fixed::rotate_transposed(a.rotation, from.core_a);
+        to.core_b = fixed::rotate_transposed(b.rotation, from.core_b - (b.position - a.position));
+        to.push = {from.feature, 0, to.core_a, 0, {0, 0}};
+        to.known = old.take_feature(from.feature, to.push);
+    }
+    for (std::uint32_t i = 0; i < manifold.count; ++i) {
+        ContactPoint& to = contact.points[i];
+        if (!to.known) {
+            old.take_nearest(to.push);
+        }
+    }
+}
+
+void begin_substep(Contact& contact, const Body& a, const Body& b) {
+    const Vec3 between = b.position - a.position;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        ContactPoint& point = contact.points[i];
+        const Levers levers = levers_now(contact, point, a, b);
+        point.material_a = fixed::rotate_transposed(a.rotation, levers.a);
+        point.material_b = fixed::rotate_transposed(b.rotation, levers.b);
+        point.start = distance_now(a, point.material_a, b, point.material_b);
+        point.core_start = distance_now(a, point.core_a, b, point.core_b);
+        point.separation = fixed::dot(contact.normal, between + levers.b - levers.a);
+        point.approach =
+            contact.restitution == 0
+                ? 0
+                : -fixed::dot(contact.normal, velocity_at(b, levers.b) - velocity_at(a, levers.a));
+        point.active = false;
+    }
+}
+
+bool strike(const Contact& contact, ContactBodies bodies, std::int64_t least_approach,
+            const MotionRate& rate) {
+    if (contact.restitution == 0 || contact.count != 1) {
+        return false;
+    }
+    const ContactPoint& point = contact.points[0];
+    const Levers levers = levers_now(contact, point, bodies.a, bodies.b);
+    const std::int64_t approach =
+        -fixed::dot(contact.normal, velocity_at(bodies.b, levers.b) - velocity_at(bodies.a, levers.a));
+    if (approach <= least_approach || point.separation > approach / rate.substeps_per_second) {
+        return false;
+    }
+    RowSide side_a{};
+    RowSide side_b{};
+    const Inverse inverse =
+        make_row(bodies, contact.shares, contact.normal, levers.a, levers.b, side_a, side_b);
+    const std::int64_t back = fixed::saturate_to_int64(fixed::shift_right_rounded(
+        fixed::multiply_signed(approach, contact.restitution), world_fraction_bits));
+    const std::int64_t p = divide(approach + back, inverse);
+    accelerate(bodies.a, side_a, contact.normal, p, -1);
+    accelerate(bodies.b, side_b, contact.normal, p, 1);
+    return true;
+}
+
+void warm_start(Contact& contact, ContactBodies bodies) {
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        ContactPoint& point = contact.points[i];
+        const std::int64_t gap = gap_now(contact, point, bodies.a, bodies.b);
+        // Another body may still push them together: what is further away than that is not looked at.
+        constexpr std::int64_t near = (std::int64_t{1} << world_fraction_bits) / 100;
+        point.active = point.push.normal != 0 || gap < near;
+        if (!point.active) {
+            point.push = {point.push.feature, 0, point.push.place, 0, {0, 0}};
+            continue;
+        }
+        const Levers levers = levers_now(contact, point, bodies.a, bodies.b);
+        point.normal_inverse = make_row(bodies, contact.shares, contact.normal, levers.a, levers.b,
+                                        point.normal_a, point.normal_b);
+        for (int t = 0; t < 2; ++t) {
+            point.across_inverse[t] = make_row(bodies, contact.shares, contact.across[t], levers.a, levers.b,
+                                               point.across_a[t], point.across_b[t]);
+        }
+    }
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        const ContactPoint& point = contact.points[i];
+        if (point.active && point.push.normal != 0) {
+            push_apart(bodies, point.normal_a, point.normal_b, contact.normal, point.push.normal);
+            push_apart(bodies, point.across_a[0], point.across_b[0], contact.across[0], point.push.across[0]);
+            push_apart(bodies, point.across_a[1], point.across_b[1], contact.across[1], point.push.across[1]);
+        }
+    }
+}
+
+void project(Contact& contact, ContactBodies bodies) {
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        ContactPoint& point = contact.points[i];
+        if (!point.active) {
+            continue;
+        }
+        const std::int64_t gap = gap_now(contact, point, bodies.a, bodies.b);
+        const std::int64_t wanted =
+            std::max<std::int64_t>(point.push.normal - divide(gap, point.normal_inverse), 0);
+        const std::int64_t more = wanted - point.push.normal;
+        point.push.normal = wanted;
+        push_apart(bodies, point.normal_a, point.normal_b, contact.normal, more);
+        if (wanted != 0 || point.push.across[0] != 0 || point.push.across[1] != 0) {
+            project_friction(contact, point, bodies);
+        }
+    }
+}
+
+void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t least_approach) {
+    if (contact.restitution == 0) {
+        return;
+    }
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        const ContactPoint& point = contact.points[i];
+        if (!point.active || point.push.normal == 0 || point.approach <= least_approach) {
+            continue;
+        }
+        const Levers levers = levers_now(contact, point, bodies.a, bodies.b);
+        const Vec3 apart = velocity_at(bodies.b, levers.b) - velocity_at(bodies.a, levers.a);
+        const std::int64_t wanted = fixed::saturate_to_int64(fixed::shift_right_rounded(
+            fixed::multiply_signed(point.approach, contact.restitution), world_fraction_bits));
+        const std::int64_t missing = wanted - fixed::dot(contact.normal, apart);
+        if (missing > 0) {
+            const std::int64_t p = divide(missing, point.normal_inverse);
+            accelerate(bodies.a, point.normal_a, contact.normal, p, -1);
+            accelerate(bodies.b, point.normal_b, contact.normal, p, 1);
+        }
+    }
+}
+
+void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate& rate) {
+    // At most three metres a second, and an eighth of what is left.
+    const std::int64_t most = LKS_FIXED(3) / rate.substeps_per_second;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        const ContactPoint& point = contact.points[i];
+        if (point.active && point.separation < -allowed_overlap) {
+            const std::int64_t depth = std::min((-point.separation - allowed_overlap) >> 3, most);
+            push_apart(bodies, point.normal_a, point.normal_b, contact.normal,
+                       divide(depth, point.normal_inverse));
+            // Nobody does so behind it.
+            for (Body* body : {&bodies.a, &bodies.b}) {
+                if (body->is_dynamic()) {
+                    body->orientation = normalise(body->orientation);
+                }
+            }
+        }
+    }
+}
+
+} // namespace lks

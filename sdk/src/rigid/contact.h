@@ -1,0 +1,103 @@
+// A contact between two shapes, at least one of them a dynamic body's: up to four points that keep apart and
+// rub.
+//
+// What is constrained is the motion within one substep, d − d₀ with d = p_b − p_a of two points that are
+// fixed in the bodies: along the normal it must not close what was open (nor deepen what overlapped), and
+// across it friction stops it within Coulomb's cone. Each row starts with the push that the same point
+// needed in the substep before, so a pile that rests is held exactly and stays as it is, to the bit. Old
+// overlaps are undone at the end of the substep by moving bodies without giving them speed.
+#pragma once
+
+#include "collide/manifold.h"
+#include "rigid/body_motion.h"
+#include "rigid/pair.h"
+
+namespace lks {
+
+// Names a contact: the same pair of shapes has the same key from tick to tick.
+struct ContactKey {
+    std::uint32_t body_a;
+    std::uint32_t other;  // body b > body a, or collider | other_is_collider
+    std::uint32_t shapes; // shape of a · 8 + shape of b
+
+    friend constexpr bool operator==(const ContactKey&, const ContactKey&) = default;
+    friend constexpr bool operator<(const ContactKey& p, const ContactKey& q) {
+        return p.body_a != q.body_a ? p.body_a < q.body_a
+               : p.other != q.other ? p.other < q.other
+                                    : p.shapes < q.shapes;
+    }
+};
+inline constexpr std::uint32_t other_is_collider = 0x80000000u;
+
+// How much a point pushed in the last substep: lengths, World (rigid/pair.h).
+struct ContactPush {
+    std::uint32_t feature;
+    std::uint32_t reserved; // 0
+    fixed::Vec3 place;      // in a's frame, World
+    std::int64_t normal;
+    std::int64_t across[2];
+};
+
+struct ContactPoint {
+    ContactPush push;
+    // In the frames of the bodies, World.
+    fixed::Vec3 core_a;
+    fixed::Vec3 core_b;
+    // Of the substep.
+    fixed::Vec3 material_a; // the surface point, in a's frame
+    fixed::Vec3 material_b;
+    fixed::Vec3 start;      // p_b − p_a at its beginning
+    fixed::Vec3 core_start; // the same of the cores
+    std::int64_t separation;
+    std::int64_t approach; // World m/s: how fast the surfaces closed
+    bool known;            // handed on by its feature
+    bool active;
+    RowSide normal_a, normal_b;
+    RowSide across_a[2], across_b[2];
+    Inverse normal_inverse;
+    Inverse across_inverse[2];
+};
+
+struct Contact {
+    ContactKey key;
+    PairShares shares;
+    std::int64_t radius_a;
+    std::int64_t radius_b;
+    std::uint32_t static_friction; // 18 fraction bits
+    std::uint32_t dynamic_friction;
+    std::int64_t restitution; // World
+    bool fast;                // its points are looked for in every substep
+    fixed::Direction normal;  // from a to b
+    fixed::Direction across[2];
+    std::uint32_t count;
+    ContactPoint points[greatest_point_count];
+};
+
+// What a contact knows of its bodies.
+struct ContactBodies {
+    Body& a;
+    Body& b;
+};
+
+// Fills the points from a new manifold. Each takes over the push of the old point of the same feature, or
+// else of the nearest one that is left: where edges lie upon edges, features come and go.
+void take_manifold(Contact& contact, const Manifold& manifold, const Body& a, const Body& b);
+// Before the bodies are predicted.
+void begin_substep(Contact& contact, const Body& a, const Body& b);
+// An impact of two single points that give back speed, before the bodies are predicted: the impulse that
+// reverses their approach. True where there was one. Impacts of several points at once are left to
+// restore_speed: a box would take them one after the other and spin.
+bool strike(const Contact& contact, ContactBodies bodies, std::int64_t least_approach,
+            const MotionRate& rate);
+// Once the bodies are predicted: rows, and the pushes of the substep before.
+void warm_start(Contact& contact, ContactBodies bodies);
+void project(Contact& contact, ContactBodies bodies);
+// Once velocities are known.
+void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t least_approach);
+// Last: old overlaps.
+void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate& rate);
+
+// The geometric mean of two coefficients, 18 fraction bits.
+std::uint32_t combined_friction(std::int64_t a, std::int64_t b);
+
+} // namespace lks

@@ -1,0 +1,415 @@
+#include "rigid/contact_search.h"
+
+#include <algorithm>
+
+#include "collide/plane_motion.h"
+#include "collide/saturation.h"
+
+namespace lks {
+namespace {
+
+using fixed::Direction;
+using fixed::Matrix3;
+using fixed::Vec3;
+
+// What is this near is looked at, whatever its speed: two centimetres.
+constexpr std::int64_t near = (std::int64_t{1} << world_fraction_bits) / 50;
+
+Matrix3 multiply(const Matrix3& a, const Matrix3& b) {
+    Matrix3 out{};
+    for (int column = 0; column < 3; ++column) {
+        const Direction d = fixed::rotate(a, Direction{b.m[0][column], b.m[1][column], b.m[2][column]});
+        out.m[0][column] = d.x;
+        out.m[1][column] = d.y;
+        out.m[2][column] = d.z;
+    }
+    return out;
+}
+
+std::int64_t from_coordinate(std::int64_t value) {
+    return value >> coordinate_from_world_shift; // exact: it came from World
+}
+
+// In its place, relative to `reference`.
+Piece piece_of_body(const Body& body, const BodyShape& shape, const Vec3& reference) {
+    Piece piece{};
+    piece.kind = shape.kind;
+    piece.radius = shape.radius;
+    piece.half_length = shape.half_length;
+    piece.half_extents = shape.half_extents;
+    piece.centre = (body.position - reference) + fixed::rotate(body.rotation, shape.position);
+    piece.axes = shape.rotation == fixed::identity_rotation()
+                     ? body.rotation
+                     : multiply(body.rotation, fixed::to_matrix(shape.rotation));
+    return piece;
+}
+
+Piece piece_of_collider(const Body& body, const ColliderState& collider, const Vec3& reference) {
+    Piece piece{};
+    piece.kind = collider.shape.kind;
+    piece.radius = from_coordinate(collider.shape.radius);
+    piece.half_length = from_coordinate(collider.shape.half_length);
+    const Vec3& e = collider.shape.half_extents;
+    piece.half_extents = {from_coordinate(e.x), from_coordinate(e.y), from_coordinate(e.z)};
+    piece.axes = body.rotation;
+    if (collider.shape.kind == LKS_SHAPE_PLANE) {
+        // The point of the plane that is nearest to the reference: the plane's own may be anywhere.
+        const Direction up = plane_normal(body.rotation);
+        const fixed::Int128 height = height_above_plane(up, body.position, reference, Vec3{0, 0, 0});
+        const std::int64_t lift = fixed::saturate_to_int64(
+            fixed::shift_right_rounded(height, height_fraction_bits - world_fraction_bits));
+        constexpr std::int64_t limit = std::int64_t{128} << world_fraction_bits;
+        piece.centre = -fixed::scale(up, std::clamp(lift, -limit, limit));
+    } else {
+        piece.centre = saturating_subtract(body.position, reference);
+    }
+    return piece;
+}
+
+std::int64_t thickness(const Piece& piece) {
+    if (piece.kind == LKS_SHAPE_PLANE) {
+        return INT64_MAX;
+    }
+    if (piece.kind == LKS_SHAPE_BOX) {
+        return std::min({piece.half_extents.x, piece.half_extents.y, piece.half_extents.z});
+    }
+    return piece.radius;
+}
+
+std::int64_t reach(const Piece& piece) {
+    if (piece.kind == LKS_SHAPE_BOX) {
+        return piece.half_extents.x + piece.half_extents.y + piece.half_extents.z;
+    }
+    return piece.radius + piece.half_length;
+}
+
+// How far any point of a body goes at most in a second; World, generous.
+std::int64_t greatest_speed(const Body& body, std::int64_t radius) {
+    const std::int64_t spin = sum_of_magnitudes(body.angular_velocity);
+    const std::int64_t by_spin =
+        fixed::saturate_to_int64(fixed::multiply_signed(spin, radius) >> world_fraction_bits);
+    return sum_of_magnitudes(body.velocity) + by_spin;
+}
+
+// Further than `margin` along an axis of the world.
+bool apart(const Piece& a, const Piece& b, std::int64_t margin) {
+    if (b.kind == LKS_SHAPE_PLANE) {
+        return false;
+    }
+    const std::int64_t room = reach(a) + reach(b) + margin;
+    const Vec3 d = b.centre - a.centre;
+    return d.x > room || d.x < -room || d.y > room || d.y < -room || d.z > room || d.z < -room;
+}
+
+class Search {
+public:
+    explicit Search(lks_world& world) : world_(world), scene_(world.rigid) {}
+
+    void run() {
+        find_pairs();
+        scene_.old_memories.swap(scene_.memories);
+        scene_.contacts.clear();
+        next_memory_ = 0;
+        for (const std::uint64_t pair : scene_.pairs) {
+            add_contacts(static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair));
+        }
+    }
+
+private:
+    std::int64_t travel(const Body& body, std::int64_t radius) const {
+        return greatest_speed(body, radius) / static_cast<std::int64_t>(world_.rate.ticks_per_second);
+    }
+
+    // A body's box in this tick, with some room.
+    Box box_of_body(std::uint32_t index) const {
+        const Body& body = scene_.bodies[index];
+        const std::int64_t radius = scene_.descriptions[index].radius;
+        std::int64_t room = radius + near;
+        if (body.is_dynamic()) {
+            room += travel(body, radius);
+        }
+        const Vec3& p = body.position;
+        Box box{{p.x - room, p.y - room, p.z - room}, {p.x + room, p.y + room, p.z + room}};
+        if (!body.is_dynamic()) {
+            include(box, body.target_position, room);
+        }
+        return box;
+    }
+
+    static void include(Box& box, const Vec3& p, std::int64_t room) {
+        box.low = {std::min(box.low.x, p.x - room), std::min(box.low.y, p.y - room),
+                   std::min(box.low.z, p.z - room)};
+        box.high = {std::max(box.high.x, p.x + room), std::max(box.high.y, p.y + room),
+                    std::max(box.high.z, p.z + room)};
+    }
+
+    void find_pairs() {
+        scene_.overlaps.clear();
+        scene_.boxed.clear();
+        scene_.pairs.clear();
+        for (std::uint32_t i = 0; i < scene_.bodies.size(); ++i) {
+            if (scene_.body_slots[i].used) {
+                scene_.overlaps.add(box_of_body(i));
+                scene_.boxed.push_reserved(i);
+            }
+        }
+        for (std::uint32_t i = 0; i < world_.colliders.size(); ++i) {
+            add_collider(i);
+        }
+        scene_.overlaps.for_each_pair(
+            [this](std::uint32_t i, std::uint32_t j) { add_pair(scene_.boxed[i], scene_.boxed[j]); });
+        std::sort(scene_.pairs.begin(), scene_.pairs.end());
+    }
+
+    // Planes meet everybody; what is above them is found out with the points.
+    void add_collider(std::uint32_t index) {
+        if (!world_.colliders[index].used) {
+            return;
+        }
+        const ColliderState& collider = world_.colliders[index].collider;
+        if (collider.shape.kind == LKS_SHAPE_PLANE) {
+            for (std::uint32_t body = 0; body < scene_.bodies.size(); ++body) {
+                if (scene_.body_slots[body].used && near_plane(body, index)) {
+                    add_pair(body, index | other_is_collider);
+                }
+            }
+            return;
+        }
+        const std::int64_t room = from_coordinate(bounding_radius(collider.shape, 0)) + 1;
+        const Vec3& p = collider.position;
+        Box box{{p.x - room, p.y - room, p.z - room}, {p.x + room, p.y + room, p.z + room}};
+        include(box, collider.target_position, room);
+        scene_.overlaps.add(box);
+        scene_.boxed.push_reserved(index | other_is_collider);
+    }
+
+    bool near_plane(std::uint32_t index, std::uint32_t collider_index) const {
+        const ColliderState& collider = world_.colliders[collider_index].collider;
+        const Body& body = scene_.bodies[index];
+        const std::int64_t radius = scene_.descriptions[index].radius;
+        const std::int64_t room = radius + near + travel(body, radius);
+        const auto below = [&](const fixed::Rotation& rotation, const Vec3& position) {
+            const fixed::Int128 height = height_above_plane(plane_normal(fixed::to_matrix(rotation)),
+                                                            position, body.position, Vec3{0, 0, 0});
+            return height <= fixed::to_int128(room) << (height_fraction_bits - world_fraction_bits);
+        };
+        return collider.rotates() || below(collider.rotation, collider.position) ||
+               below(collider.target_rotation, collider.target_position);
+    }
+
+    // One of them is a body, and stands first.
+    void add_pair(std::uint32_t a, std::uint32_t b) {
+        if (a >= other_is_collider) {
+            std::swap(a, b);
+        }
+        if (a >= other_is_collider || !may_collide(a, b)) {
+            return;
+        }
+        if (scene_.pairs.size() == scene_.pairs.capacity()) {
+            ++world_.counters.lost_contacts;
+            return;
+        }
+        scene_.pairs.push_reserved(std::uint64_t{a} << 32 | b);
+    }
+
+    bool may_collide(std::uint32_t a, std::uint32_t b) const {
+        const bool moves = scene_.bodies[a].is_dynamic();
+        if (b >= other_is_collider) {
+            return moves;
+        }
+        if (!moves && !scene_.bodies[b].is_dynamic()) {
+            return false;
+        }
+        if (std::binary_search(scene_.jointed.begin(), scene_.jointed.end(), std::uint64_t{a} << 32 | b)) {
+            return false;
+        }
+        const lks_filter& p = scene_.descriptions[a].filter;
+        const lks_filter& q = scene_.descriptions[b].filter;
+        if (p.group == q.group && p.group != 0) {
+            return p.group > 0;
+        }
+        return (p.category & q.mask) != 0 && (q.category & p.mask) != 0;
+    }
+
+    void add_contacts(std::uint32_t a, std::uint32_t other) {
+        const Body& body_a = scene_.bodies[a];
+        const Body& body_b = other_body(scene_, other);
+        const BodyDescription& description_a = scene_.descriptions[a];
+        const bool with_collider = other >= other_is_collider;
+        const std::uint32_t shapes_b = with_collider ? 1 : scene_.descriptions[other].shape_count;
+        // The motion of one against the other in this tick.
+        const std::int64_t radius_b = with_collider ? 0 : scene_.descriptions[other].radius;
+        Body relative = body_a;
+        relative.velocity = body_a.velocity - body_b.velocity;
+        const std::int64_t motion =
+            travel(relative, description_a.radius) + travel_by_spin(body_b, with_collider, other, radius_b);
+        for (std::uint32_t i = 0; i < description_a.shape_count; ++i) {
+            const Piece piece_a = piece_of_body(body_a, description_a.shapes[i], body_a.position);
+            for (std::uint32_t j = 0; j < shapes_b; ++j) {
+                const Piece piece_b =
+                    with_collider
+                        ? piece_of_collider(body_b, collider_of(other), body_a.position)
+                        : piece_of_body(body_b, scene_.descriptions[other].shapes[j], body_a.position);
+                if (apart(piece_a, piece_b, motion + near)) {
+                    continue;
+                }
+                add_contact({a, other, i * LKS_MAX_BODY_SHAPES + j}, piece_a, piece_b, motion);
+            }
+        }
+    }
+
+    // The rest of what b's motion is worth: its spin, and where a collider turns.
+    std::int64_t travel_by_spin(const Body& b, bool with_collider, std::uint32_t other,
+                                std::int64_t radius) const {
+        Body still = b;
+        still.velocity = {0, 0, 0};
+        std::int64_t lever = radius;
+        if (with_collider) {
+            const Shape& shape = collider_of(other).shape;
+            lever =
+                shape.kind == LKS_SHAPE_PLANE ? LKS_FIXED(64) : from_coordinate(bounding_radius(shape, 0));
+        }
+        return travel(still, lever);
+    }
+
+    const ColliderState& collider_of(std::uint32_t other) const {
+        return world_.colliders[other & ~other_is_collider].collider;
+    }
+
+    Surface surface_of(std::uint32_t other) const {
+        if (other < other_is_collider) {
+            return scene_.descriptions[other].surface;
+        }
+        const ColliderState& collider = collider_of(other);
+        return {collider.static_friction, collider.dynamic_friction, 0};
+    }
+
+    void add_contact(const ContactKey& key, const Piece& a, const Piece& b, std::int64_t motion) {
+        while (next_memory_ < scene_.old_memories.size() && scene_.old_memories[next_memory_].key < key) {
+            ++next_memory_;
+        }
+        const bool known =
+            next_memory_ < scene_.old_memories.size() && scene_.old_memories[next_memory_].key == key;
+        // One look a tick is enough where neither passes the other's middle in it.
+        const bool fast = motion > fixed::saturating_add(thickness(a), thickness(b));
+        Manifold manifold;
+        collide(a, b, fast ? near : motion + near, manifold);
+        if (!fast) {
+            drop_what_stays_apart(manifold, key, motion);
+            if (manifold.count == 0) {
+                return;
+            }
+        }
+        if (scene_.contacts.size() == scene_.contacts.capacity()) {
+            ++world_.counters.lost_contacts;
+            return;
+        }
+        scene_.contacts.push_reserved(Contact{});
+        Contact& contact = scene_.contacts[scene_.contacts.size() - 1];
+        const Body& body_b = other_body(scene_, key.other);
+        contact.key = key;
+        contact.shares = pair_shares(scene_.bodies[key.body_a].inverse_mass, body_b.inverse_mass);
+        contact.radius_a = a.radius;
+        contact.radius_b = b.radius;
+        const Surface& own = scene_.descriptions[key.body_a].surface;
+        const Surface other = surface_of(key.other);
+        contact.static_friction = combined_friction(own.static_friction, other.static_friction);
+        contact.dynamic_friction = combined_friction(own.dynamic_friction, other.dynamic_friction);
+        contact.restitution = std::max(own.restitution, other.restitution);
+        contact.fast = fast;
+        if (known) {
+            const ContactMemory& memory = scene_.old_memories[next_memory_];
+            contact.count = memory.count;
+            for (std::uint32_t i = 0; i < memory.count; ++i) {
+                contact.points[i].push = memory.pushes[i];
+            }
+        }
+        take_manifold(contact, manifold, scene_.bodies[key.body_a], body_b);
+    }
+
+    // Of the motion that the search allowed for, only what closes the gap counts.
+    void drop_what_stays_apart(Manifold& manifold, const ContactKey& key, std::int64_t motion) const {
+        const Body& a = scene_.bodies[key.body_a];
+        const Body& b = other_body(scene_, key.other);
+        const std::int64_t closing =
+            std::max<std::int64_t>(0, -fixed::dot(manifold.normal, b.velocity - a.velocity) /
+                                          static_cast<std::int64_t>(world_.rate.ticks_per_second));
+        const std::int64_t spinning = motion - travel_along(a, b);
+        std::uint32_t kept = 0;
+        for (std::uint32_t i = 0; i < manifold.count; ++i) {
+            if (manifold.points[i].separation <= near + closing + spinning) {
+                manifold.points[kept++] = manifold.points[i];
+            }
+        }
+        manifold.count = kept;
+    }
+
+    std::int64_t travel_along(const Body& a, const Body& b) const {
+        return sum_of_magnitudes(b.velocity - a.velocity) /
+               static_cast<std::int64_t>(world_.rate.ticks_per_second);
+    }
+
+    lks_world& world_;
+    RigidScene& scene_;
+    std::size_t next_memory_ = 0;
+};
+
+} // namespace
+
+Body& other_body(RigidScene& scene, std::uint32_t other) {
+    return other >= other_is_collider ? scene.collider_bodies[other & ~other_is_collider]
+                                      : scene.bodies[other];
+}
+
+void place_collider_bodies(lks_world& world) {
+    RigidScene& scene = world.rigid;
+    scene.collider_bodies.clear();
+    for (const ColliderSlot& slot : world.colliders) {
+        Body body{};
+        if (slot.used) {
+            body.position = slot.collider.position;
+            body.target_position = slot.collider.target_position;
+            body.orientation = widen(slot.collider.rotation);
+            body.target_orientation =
+                slot.collider.rotates() ? widen(slot.collider.target_rotation) : body.orientation;
+            body.rotation = fixed::to_matrix(slot.collider.rotation);
+            body.tick_position = body.position;
+            body.tick_orientation = body.orientation;
+            body.start_position = body.position;
+            body.start_orientation = body.orientation;
+        }
+        scene.collider_bodies.push_reserved(body);
+    }
+}
+
+void find_contacts(lks_world& world) {
+    Search(world).run();
+}
+
+void find_points_again(const lks_world& world, Contact& contact) {
+    const RigidScene& scene = world.rigid;
+    const Body& a = scene.bodies[contact.key.body_a];
+    const bool with_collider = contact.key.other >= other_is_collider;
+    const std::uint32_t index = contact.key.other & ~other_is_collider;
+    const Body& b = with_collider ? scene.collider_bodies[index] : scene.bodies[index];
+    const BodyDescription& description = scene.descriptions[contact.key.body_a];
+    const BodyShape& shape_a = description.shapes[contact.key.shapes / LKS_MAX_BODY_SHAPES];
+    const Piece piece_a = piece_of_body(a, shape_a, a.position);
+    const Piece piece_b =
+        with_collider
+            ? piece_of_collider(b, world.colliders[index].collider, a.position)
+            : piece_of_body(b, scene.descriptions[index].shapes[contact.key.shapes % LKS_MAX_BODY_SHAPES],
+                            a.position);
+    const auto n = static_cast<std::int64_t>(world.rate.substeps_per_second);
+    const std::int64_t radius_b = with_collider ? reach(piece_b) : scene.descriptions[index].radius;
+    const std::int64_t motion = (greatest_speed(a, description.radius) + greatest_speed(b, radius_b)) / n;
+    Manifold manifold;
+    manifold.normal = contact.normal;
+    manifold.count = 0;
+    if (!apart(piece_a, piece_b, motion + near)) {
+        collide(piece_a, piece_b, motion + near, manifold);
+    }
+    take_manifold(contact, manifold, a, b);
+}
+
+} // namespace lks

@@ -1,0 +1,19 @@
+// Which shapes may touch in a tick, and where.
+#pragma once
+
+#include "solver/world.h"
+
+namespace lks {
+
+// Colliders as bodies of infinite mass, at the beginning of the tick.
+void place_collider_bodies(lks_world& world);
+// Fills the scene's contacts, in ascending order of keys, with what is near enough to touch in this tick and
+// what pushed in the last one.
+void find_contacts(lks_world& world);
+// For contacts whose bodies go too fast for one look a tick: the points at the beginning of a substep.
+void find_points_again(const lks_world& world, Contact& contact);
+
+// The body that a contact's or a pair's second number names.
+Body& other_body(RigidScene& scene, std::uint32_t other);
+
+} // namespace lks

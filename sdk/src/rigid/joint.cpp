@@ -1,0 +1,405 @@
+#include "rigid/joint.h"
+
+#include <algorithm>
+
+#include "fixed/arc_tangent.h"
+#include "fixed/trigonometry.h"
+#include "rigid/make_body.h"
+
+namespace lks {
+namespace {
+
+using fixed::Direction;
+using fixed::Vec3;
+
+constexpr std::int64_t half_circle_degrees = LKS_FIXED(180);
+
+SinCos sine_and_cosine(std::int64_t degrees, int fraction_bits) {
+    const fixed::SineCosine wide = fixed::sine_cosine(degrees, fraction_bits);
+    return {fixed::round_component(wide.sine), fixed::round_component(wide.cosine)};
+}
+
+std::int64_t to_radians(std::int64_t degrees) {
+    return fixed::multiply_divide(degrees, fixed::half_circle, half_circle_degrees);
+}
+
+// A joint's frame in world axes: only its axis, y, and one across it are ever needed.
+Direction frame_axis(const Body& body, const fixed::Rotation& frame) {
+    const fixed::Matrix3 m = fixed::to_matrix(frame);
+    return fixed::rotate(body.rotation, Direction{m.m[0][1], m.m[1][1], m.m[2][1]});
+}
+
+// From a's frame to b's.
+fixed::Rotation relative_rotation(const Joint& joint, const Body& a, const Body& b) {
+    const fixed::Rotation in_a = fixed::multiply(narrow(a.orientation), joint.description.frame_a);
+    const fixed::Rotation in_b = fixed::multiply(narrow(b.orientation), joint.description.frame_b);
+    const fixed::Rotation q = fixed::multiply(fixed::conjugate(in_a), in_b);
+    return q.w < 0 ? fixed::Rotation{-q.x, -q.y, -q.z, -q.w} : q;
+}
+
+Vec3 cross(const Direction& u, const Direction& v) {
+    return {std::int64_t{u.y} * v.z - std::int64_t{u.z} * v.y,
+            std::int64_t{u.z} * v.x - std::int64_t{u.x} * v.z,
+            std::int64_t{u.x} * v.y - std::int64_t{u.y} * v.x};
+}
+
+// Some vector across u.
+Direction across_any(const Direction& u) {
+    const auto size = [](std::int32_t c) { return c < 0 ? -c : c; };
+    return size(u.x) < size(u.y) ? Direction{0, -u.z, u.y} : Direction{-u.z, 0, u.x};
+}
+
+// One row about an axis: what is to be turned, and by how much.
+class TurnRow {
+public:
+    TurnRow(const Joint& joint, Body& a, Body& b, const Direction& axis) : a_(a), b_(b) {
+        std::int64_t weight = 0;
+        side_a_ = turn_side(a, joint.constants.shares.a, axis, joint.constants.reach, weight);
+        side_b_ = turn_side(b, joint.constants.shares.b, axis, joint.constants.reach, weight);
+        possible_ = weight >= 1 << 8;
+        inverse_ = possible_ ? invert(weight) : Inverse{};
+    }
+
+    // What it takes to turn b against a by this angle about the axis.
+    std::int64_t push_for(std::int64_t angle) const { return possible_ ? divide(angle, inverse_) : 0; }
+
+    // Does so; the push that it took.
+    std::int64_t turn_by(std::int64_t angle) const {
+        const std::int64_t p = push_for(angle);
+        turn(a_, side_a_, p, -1);
+        turn(b_, side_b_, p, 1);
+        return p;
+    }
+
+private:
+    Body& a_;
+    Body& b_;
+    RowSide side_a_{};
+    RowSide side_b_{};
+    Inverse inverse_{};
+    bool possible_ = false;
+};
+
+// The inverse of a symmetric positive matrix with 30 fraction bits. Where it is too flat to be inverted in
+// 32 bits, that of its trace serves, which falls short but never goes too far.
+void invert_block(const std::int64_t (&k)[6], SymmetricMatrix& inverse, std::int32_t& shift) {
+    constexpr std::int64_t unit = std::int64_t{1} << 28;
+    const std::int64_t greatest = std::max({k[0], k[3], k[5]});
+    int down = 0;
+    while (greatest >> down >= 2 * unit) {
+        ++down;
+    }
+    std::int64_t m[6]; // in units of 2^28, the greatest of the diagonal from 1 to 2
+    for (int i = 0; i < 6; ++i) {
+        m[i] = k[i] >> down;
+    }
+    const auto minor = [](std::int64_t p, std::int64_t q, std::int64_t r, std::int64_t t) {
+        return (p * q - r * t) >> 28;
+    };
+    std::int64_t cofactors[6] = {minor(m[3], m[5], m[4], m[4]), minor(m[2], m[4], m[1], m[5]),
+                                 minor(m[1], m[4], m[2], m[3]), minor(m[0], m[5], m[2], m[2]),
+                                 minor(m[1], m[2], m[0], m[4]), minor(m[0], m[3], m[1], m[1])};
+    std::int64_t whole = (m[0] * cofactors[0] + m[1] * cofactors[1] + m[2] * cofactors[2]) >> 28;
+    if (whole < unit >> 14) {
+        whole = m[0] + m[3] + m[5];
+        for (int i = 0; i < 6; ++i) {
+            cofactors[i] = i == 0 || i == 3 || i == 5 ? unit : 0;
+        }
+    }
+    std::int64_t entries[6]; // 30 fraction bits, of units
+    std::int64_t size = 0;
+    for (int i = 0; i < 6; ++i) {
+        entries[i] = (cofactors[i] * (std::int64_t{1} << 30)) / whole;
+        size = std::max(size, entries[i] < 0 ? -entries[i] : entries[i]);
+    }
+    int narrowed = 0;
+    while (size >> narrowed >= std::int64_t{1} << 29) {
+        ++narrowed;
+    }
+    const auto part = [&](int i) { return static_cast<std::int32_t>(entries[i] >> narrowed); };
+    inverse = {part(0), part(1), part(2), part(3), part(4), part(5)};
+    // K is m · 2^(down − 30), and m in units is m · 2^-28.
+    shift = narrowed + 2 - down;
+}
+
+Vec3 scaled(const Vec3& v, int shift) {
+    const auto part = [shift](std::int64_t c) {
+        return shift >= 0 ? fixed::wrapping_multiply(c, std::int64_t{1} << shift)
+                          : fixed::shift_right_rounded(c, -shift);
+    };
+    return {part(v.x), part(v.y), part(v.z)};
+}
+
+void push_apart(Joint& joint, Body& a, Body& b, const Vec3& p) {
+    push(a, joint.side_a, p, -1);
+    push(b, joint.side_b, p, 1);
+}
+
+// Errors beyond this are taken in several substeps: a bone that was torn 10 m away comes back at a bounded
+// speed.
+constexpr std::int64_t greatest_step = std::int64_t{1} << (world_fraction_bits - 1);
+
+// The points together, in all directions at once (XPBD eq. 18).
+void project_points(Joint& joint, Body& a, Body& b) {
+    Vec3 error = joint_offset(joint, a, b);
+    const std::int64_t softness = joint.constants.softness;
+    if (softness != 0) {
+        const auto part = [softness](std::int64_t c) {
+            return fixed::saturate_to_int64(
+                fixed::shift_right_rounded(fixed::multiply_signed(c, softness), 30));
+        };
+        error = error + Vec3{part(joint.push.x), part(joint.push.y), part(joint.push.z)};
+    }
+    clamp_vector(error, greatest_step);
+    const Vec3 p = -scaled(multiply(joint.inverse, error), joint.inverse_shift);
+    joint.push = joint.push + p;
+    push_apart(joint, a, b, p);
+}
+
+// The points at a distance: a row along the way between them.
+void project_distance(Joint& joint, Body& a, Body& b) {
+    const JointDescription& d = joint.description;
+    fixed::NormalisedVector way{};
+    const Vec3 offset = joint_offset(joint, a, b);
+    if (!fixed::normalise(offset, way)) {
+        way = {{direction_one, 0, 0}, 0}; // one in the other: any direction
+    }
+    const bool rod = d.distance_min == d.distance_max;
+    // What the push along the way was, and what it may be: it holds back, or off.
+    std::int64_t pushed = fixed::dot(way.direction, joint.push);
+    std::int64_t error = 0;
+    bool pulls = false;
+    if (way.length > d.distance_max || (pushed < 0 && !rod)) {
+        error = way.length - d.distance_max;
+        pulls = true;
+    } else if (way.length < d.distance_min || (pushed > 0 && !rod)) {
+        error = way.length - d.distance_min;
+    } else if (!rod) {
+        joint.push = {0, 0, 0};
+        return;
+    }
+    error = std::clamp(error, -greatest_step, greatest_step);
+    std::int64_t weight = joint.constants.softness;
+    const Vec3 lever_a = fixed::rotate(a.rotation, d.point_a);
+    const Vec3 lever_b = fixed::rotate(b.rotation, d.point_b);
+    const RowSide side_a = push_side(a, joint.constants.shares.a, way.direction, lever_a, weight);
+    const RowSide side_b = push_side(b, joint.constants.shares.b, way.direction, lever_b, weight);
+    const std::int64_t soft = fixed::saturate_to_int64(
+        fixed::shift_right_rounded(fixed::multiply_signed(pushed, joint.constants.softness), 30));
+    std::int64_t p = -divide(error + soft, invert(weight));
+    if (!rod) {
+        // A rope only pulls, a strut only pushes.
+        const std::int64_t total =
+            pulls ? std::min<std::int64_t>(pushed + p, 0) : std::max<std::int64_t>(pushed + p, 0);
+        p = total - pushed;
+    }
+    joint.push = fixed::scale(way.direction, pushed + p);
+    const Vec3 along = fixed::scale(way.direction, p);
+    push(a, side_a, along, p, -1);
+    push(b, side_b, along, p, 1);
+}
+
+void turn_apart(const Joint& joint, Body& a, Body& b, const Vec3& p) {
+    const auto shift = [&](const Body& body) {
+        return std::min(body.inverse_shift + 2 * (joint.constants.reach - body.scale), 24) - 1;
+    };
+    turn(a, joint.constants.shares.a, shift(a), p, -1);
+    turn(b, joint.constants.shares.b, shift(b), p, 1);
+}
+
+// An error vector, 30 fraction bits of radians or of sines: b is turned back against it.
+void project_turn(Joint& joint, Body& a, Body& b, const Vec3& error) {
+    fixed::NormalisedVector way{};
+    if (!fixed::normalise(error, way)) {
+        return;
+    }
+    const std::int64_t angle = way.length * (std::int64_t{1} << (world_fraction_bits - 30));
+    const std::int64_t p = TurnRow(joint, a, b, way.direction).turn_by(-angle);
+    joint.turn = joint.turn + fixed::scale(way.direction, p);
+}
+
+// A hinge's axes together.
+void project_axes(Joint& joint, Body& a, Body& b) {
+    const Direction u = frame_axis(a, joint.description.frame_a);
+    const Direction v = frame_axis(b, joint.description.frame_b);
+    Vec3 error = cross(u, v); // sine, 60 fraction bits
+    error = scaled(error, -30);
+    if (fixed::dot(u, v) < 0) {
+        // Beyond a right angle: a right angle's worth. Where they are opposite, about any axis across.
+        fixed::NormalisedVector way{};
+        const Direction aside = across_any(u);
+        if (!fixed::normalise(error, way)) {
+            fixed::normalise(Vec3{aside.x, aside.y, aside.z}, way);
+        }
+        error = {way.direction.x, way.direction.y, way.direction.z};
+    }
+    project_turn(joint, a, b, error);
+}
+
+// A fixed joint's frames together.
+void project_frames(Joint& joint, Body& a, Body& b) {
+    const fixed::Rotation q = relative_rotation(joint, a, b);
+    const fixed::Matrix3 frame = fixed::to_matrix(joint.description.frame_a);
+    const Direction in_a = fixed::rotate(frame, Direction{q.x, q.y, q.z});
+    const Direction error = fixed::rotate(a.rotation, in_a); // half the angle
+    project_turn(joint, a, b,
+                 {2 * std::int64_t{error.x}, 2 * std::int64_t{error.y}, 2 * std::int64_t{error.z}});
+}
+
+void limit_swing(Joint& joint, Body& a, Body& b) {
+    const Direction u = frame_axis(a, joint.description.frame_a);
+    const Direction v = frame_axis(b, joint.description.frame_b);
+    const std::int32_t cosine = fixed::dot(u, v);
+    if (cosine >= joint.constants.swing.cosine) {
+        return;
+    }
+    fixed::NormalisedVector way{};
+    const Vec3 across = scaled(cross(u, v), -30);
+    if (!fixed::normalise(across, way)) {
+        const Direction aside = across_any(u);
+        fixed::normalise(Vec3{aside.x, aside.y, aside.z}, way);
+        way.length = 0;
+    }
+    const std::int64_t angle = fixed::angle_of(way.length, cosine);
+    if (angle > joint.constants.swing_limit) {
+        TurnRow(joint, a, b, way.direction).turn_by(joint.constants.swing_limit - angle);
+    }
+}
+
+// Half the twist is the angle of (q.w, q.y).
+void limit_twist(Joint& joint, Body& a, Body& b) {
+    const fixed::Rotation q = relative_rotation(joint, a, b);
+    const JointConstants& c = joint.constants;
+    // Where the swing is a half turn there is no twist.
+    if (std::int64_t{q.y} * q.y + std::int64_t{q.w} * q.w < std::int64_t{1} << 50) {
+        return;
+    }
+    // sin(twist/2 − limit/2), times what is left of the swing.
+    const std::int64_t above = std::int64_t{q.y} * c.half_max.cosine - std::int64_t{q.w} * c.half_max.sine;
+    const std::int64_t below = std::int64_t{q.w} * c.half_min.sine - std::int64_t{q.y} * c.half_min.cosine;
+    if (above <= 0 && below <= 0) {
+        return;
+    }
+    const std::int64_t twist = 2 * fixed::angle_of(q.y, q.w);
+    const std::int64_t wanted = std::clamp(twist, c.twist_min, c.twist_max);
+    // About the middle of both axes.
+    const Direction u = frame_axis(a, joint.description.frame_a);
+    const Direction v = frame_axis(b, joint.description.frame_b);
+    fixed::NormalisedVector way{};
+    if (fixed::normalise(Vec3{std::int64_t{u.x} + v.x, std::int64_t{u.y} + v.y, std::int64_t{u.z} + v.z},
+                         way)) {
+        TurnRow(joint, a, b, way.direction).turn_by(wanted - twist);
+    }
+}
+
+// Resists turning within a substep, up to its greatest push.
+void rub(Joint& joint, Body& a, Body& b) {
+    if (joint.constants.friction == 0) {
+        return;
+    }
+    const Vec3 turned = half_turn_between(b.start_orientation, b.orientation) -
+                        half_turn_between(a.start_orientation, a.orientation);
+    fixed::NormalisedVector way{};
+    if (!fixed::normalise(turned, way)) {
+        return;
+    }
+    // Half turns in Turn format to angles in World.
+    const std::int64_t angle = way.length >> (turn_fraction_bits - world_fraction_bits - 1);
+    const TurnRow row(joint, a, b, way.direction);
+    const std::int64_t wanted = row.push_for(-angle);
+    const Vec3 before = joint.grip;
+    Vec3 total = before + fixed::scale(way.direction, wanted);
+    fixed::NormalisedVector size{};
+    if (fixed::normalise(total, size) && size.length > joint.constants.friction) {
+        total = fixed::scale(size.direction, joint.constants.friction);
+    }
+    joint.grip = total;
+    turn_apart(joint, a, b, total - before);
+}
+
+} // namespace
+
+Vec3 joint_offset(const Joint& joint, const Body& a, const Body& b) {
+    return (b.position - a.position) + fixed::rotate(b.rotation, joint.description.point_b) -
+           fixed::rotate(a.rotation, joint.description.point_a);
+}
+
+JointAngles joint_angles(const Joint& joint, const Body& a, const Body& b) {
+    const fixed::Rotation q = relative_rotation(joint, a, b);
+    const Direction u = frame_axis(a, joint.description.frame_a);
+    const Direction v = frame_axis(b, joint.description.frame_b);
+    fixed::NormalisedVector way{};
+    const bool apart = fixed::normalise(scaled(cross(u, v), -30), way);
+    return {fixed::angle_of(apart ? way.length : 0, fixed::dot(u, v)), 2 * fixed::angle_of(q.y, q.w)};
+}
+
+JointConstants make_joint_constants(const JointDescription& d, const Body& a, const Body& b,
+                                    const StepRate& rate) {
+    JointConstants c{};
+    c.shares = pair_shares(a.inverse_mass, b.inverse_mass);
+    c.swing_limited = d.kind == LKS_JOINT_BALL && d.swing_limit < half_circle_degrees;
+    c.twist_limited = (d.kind == LKS_JOINT_BALL || d.kind == LKS_JOINT_HINGE) &&
+                      (d.twist_min > -half_circle_degrees || d.twist_max < half_circle_degrees);
+    c.swing = sine_and_cosine(d.swing_limit, world_fraction_bits);
+    c.swing_limit = to_radians(d.swing_limit);
+    // One fraction bit more is half the angle.
+    c.half_min = sine_and_cosine(d.twist_min, world_fraction_bits + 1);
+    c.half_max = sine_and_cosine(d.twist_max, world_fraction_bits + 1);
+    c.twist_min = to_radians(d.twist_min);
+    c.twist_max = to_radians(d.twist_max);
+    const auto reach_of = [](const Body& body) { return body.scale - body.inverse_shift / 2; };
+    c.reach = !a.is_dynamic()   ? reach_of(b)
+              : !b.is_dynamic() ? reach_of(a)
+                                : std::min(reach_of(a), reach_of(b));
+    const bool a_greater = c.shares.a == direction_one;
+    const fixed::Scaled greater = inverse_mass(a_greater ? a : b);
+    const fixed::Scaled inverse_h = rate.inverse_h();
+    const auto world = [](std::int64_t value) {
+        return fixed::Scaled::from_fixed(static_cast<std::uint64_t>(value), world_fraction_bits);
+    };
+    if (!greater.is_zero()) {
+        const fixed::Scaled softness = world(d.compliance) * inverse_h * inverse_h / greater;
+        c.softness = std::min(softness.to_i64_fixed(30), std::int64_t{1} << 50);
+        // A torque M over a substep is a push of M·h²·w, of angles at a radius of 2^reach m.
+        const fixed::Scaled most =
+            world(d.friction) * greater / (inverse_h * inverse_h).times_power_of_two(2 * c.reach);
+        c.friction = std::min(most.to_i64_fixed(world_fraction_bits), std::int64_t{1} << 50);
+    }
+    return c;
+}
+
+void begin_substep(Joint& joint, const Body& a, const Body& b) {
+    const JointDescription& d = joint.description;
+    joint.push = {0, 0, 0};
+    joint.turn = {0, 0, 0};
+    joint.grip = {0, 0, 0};
+    if (d.kind != LKS_JOINT_DISTANCE) {
+        const std::int64_t softness = joint.constants.softness;
+        std::int64_t k[6] = {softness, 0, 0, softness, 0, softness};
+        joint.side_a = block_side(a, joint.constants.shares.a, fixed::rotate(a.rotation, d.point_a), k);
+        joint.side_b = block_side(b, joint.constants.shares.b, fixed::rotate(b.rotation, d.point_b), k);
+        invert_block(k, joint.inverse, joint.inverse_shift);
+    }
+}
+
+void project(Joint& joint, Body& a, Body& b) {
+    rub(joint, a, b);
+    if (joint.description.kind == LKS_JOINT_HINGE) {
+        project_axes(joint, a, b);
+    } else if (joint.description.kind == LKS_JOINT_FIXED) {
+        project_frames(joint, a, b);
+    }
+    if (joint.constants.swing_limited) {
+        limit_swing(joint, a, b);
+    }
+    if (joint.constants.twist_limited) {
+        limit_twist(joint, a, b);
+    }
+    if (joint.description.kind == LKS_JOINT_DISTANCE) {
+        project_distance(joint, a, b);
+    } else {
+        project_points(joint, a, b);
+    }
+}
+
+} // namespace lks

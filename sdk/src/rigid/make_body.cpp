@@ -1,0 +1,190 @@
+#include "rigid/make_body.h"
+
+#include <algorithm>
+
+#include "collide/saturation.h"
+
+namespace lks {
+namespace {
+
+using fixed::Scaled;
+using fixed::Vec3;
+
+Vec3 vector(const lks_vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+fixed::Rotation rotation(const lks_rotation& q) {
+    return fixed::normalise(fixed::Rotation{q.x, q.y, q.z, q.w});
+}
+
+BodyShape make_shape(const lks_body_shape& from) {
+    BodyShape shape{};
+    shape.kind = from.shape;
+    if (from.shape != LKS_SHAPE_BOX) {
+        shape.radius = from.radius;
+    } else {
+        shape.half_extents = vector(from.half_extents);
+    }
+    if (from.shape == LKS_SHAPE_CAPSULE) {
+        shape.half_length = from.half_length;
+    }
+    shape.position = vector(from.transform.position);
+    shape.rotation = rotation(from.transform.rotation);
+    shape.density = from.density;
+    return shape;
+}
+
+InverseMass invert_mass(const Scaled& mass) {
+    const Scaled inverse = Scaled::from_u64(1) / mass;
+    // The upper half of the mantissa.
+    return {static_cast<std::uint32_t>(inverse.mantissa >> 32), inverse.exponent + 32};
+}
+
+Scaled magnitude(std::int64_t value) {
+    return Scaled::from_fixed(fixed::magnitude(value), world_fraction_bits);
+}
+
+// value · factor with its sign, World.
+std::int64_t times(std::int64_t value, const Scaled& factor) {
+    const std::int64_t result = (magnitude(value) * factor).to_i64_fixed(world_fraction_bits);
+    return value < 0 ? -result : result;
+}
+
+// a·b − c·d, World.
+std::int64_t minor(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+    return fixed::saturate_to_int64(fixed::shift_right_rounded(
+        fixed::multiply_signed(a, b) - fixed::multiply_signed(c, d), world_fraction_bits));
+}
+
+} // namespace
+
+BodyDescription describe_body(const lks_body_def& def) {
+    BodyDescription out{};
+    out.kind = def.kind;
+    out.shape_count = def.shape_count;
+    for (std::uint32_t i = 0; i < def.shape_count; ++i) {
+        out.shapes[i] = make_shape(def.shapes[i]);
+    }
+    out.properties = mass_properties(out.shapes, out.shape_count);
+    out.given_mass = def.mass;
+    if (def.mass != 0) {
+        out.properties.mass = magnitude(def.mass);
+    }
+    out.centre = out.properties.centre;
+    for (std::uint32_t i = 0; i < def.shape_count; ++i) {
+        BodyShape& shape = out.shapes[i];
+        shape.position = shape.position - out.centre;
+        const auto distance = static_cast<std::int64_t>(fixed::length(shape.position));
+        out.radius = std::max(out.radius, distance + bounding_radius(shape));
+    }
+    out.surface = {def.static_friction, def.dynamic_friction, def.restitution};
+    out.filter = def.filter;
+    out.gravity_factor = def.gravity_factor;
+    out.linear_damping = def.linear_damping;
+    out.angular_damping = def.angular_damping;
+    return out;
+}
+
+lks_body_def define_body(const BodyDescription& description, lks_body_shape* shapes) {
+    lks_body_def def{};
+    def.struct_size = sizeof(lks_body_def);
+    def.kind = description.kind;
+    def.transform.rotation.w = LKS_ROTATION_ONE;
+    for (std::uint32_t i = 0; i < description.shape_count; ++i) {
+        const BodyShape& from = description.shapes[i];
+        const Vec3 position = from.position + description.centre;
+        lks_body_shape shape{};
+        shape.shape = from.kind;
+        shape.transform.position = {position.x, position.y, position.z};
+        shape.transform.rotation = {from.rotation.x, from.rotation.y, from.rotation.z, from.rotation.w};
+        shape.radius = from.radius;
+        shape.half_length = from.half_length;
+        shape.half_extents = {from.half_extents.x, from.half_extents.y, from.half_extents.z};
+        shape.density = from.density;
+        shapes[i] = shape;
+    }
+    def.shapes = shapes;
+    def.shape_count = description.shape_count;
+    def.mass = description.given_mass;
+    def.gravity_factor = description.gravity_factor;
+    def.linear_damping = description.linear_damping;
+    def.angular_damping = description.angular_damping;
+    def.static_friction = description.surface.static_friction;
+    def.dynamic_friction = description.surface.dynamic_friction;
+    def.restitution = description.surface.restitution;
+    def.filter = description.filter;
+    return def;
+}
+
+void apply_description(Body& body, const BodyDescription& description) {
+    body.inverse_mass =
+        description.kind == LKS_BODY_KINEMATIC ? InverseMass{0, 0} : invert_mass(description.properties.mass);
+    body.scale = description.properties.scale;
+    body.inverse_shift = description.properties.inverse_shift;
+    body.inverse_inertia = description.properties.inverse_inertia;
+}
+
+void place_body(Body& body, const BodyDescription& description, const Vec3& position,
+                const fixed::Rotation& rotation) {
+    body.orientation = widen(rotation);
+    body.follow_orientation();
+    body.position = position + fixed::rotate(body.rotation, description.centre);
+    body.target_position = body.position;
+    body.target_orientation = body.orientation;
+    body.previous_position = body.position;
+    body.previous_rotation = narrow(body.orientation);
+}
+
+Vec3 frame_position(const Body& body, const BodyDescription& description) {
+    return body.position - fixed::rotate(fixed::to_matrix(narrow(body.orientation)), description.centre);
+}
+
+Body make_body(const BodyDescription& description, const lks_body_def& def) {
+    Body body{};
+    apply_description(body, description);
+    place_body(body, description, vector(def.transform.position), rotation(def.transform.rotation));
+    if (body.is_dynamic()) {
+        body.velocity = vector(def.velocity);
+        body.angular_velocity = vector(def.angular_velocity);
+    }
+    return body;
+}
+
+Scaled inverse_mass(const Body& body) {
+    return Scaled::from_u64(body.inverse_mass.mantissa).times_power_of_two(body.inverse_mass.exponent);
+}
+
+void apply_impulse(Body& body, const Vec3& impulse, const Vec3& lever) {
+    if (!body.is_dynamic()) {
+        return;
+    }
+    const Scaled w = inverse_mass(body);
+    body.velocity =
+        saturating_add(body.velocity, {times(impulse.x, w), times(impulse.y, w), times(impulse.z, w)});
+    const Vec3 momentum{minor(lever.y, impulse.z, lever.z, impulse.y),
+                        minor(lever.z, impulse.x, lever.x, impulse.z),
+                        minor(lever.x, impulse.y, lever.y, impulse.x)};
+    constexpr std::int64_t limit = (std::int64_t{1} << 62) - 1;
+    const Vec3 bounded{std::clamp(momentum.x, -limit, limit), std::clamp(momentum.y, -limit, limit),
+                       std::clamp(momentum.z, -limit, limit)};
+    const Vec3 turn = multiply(rotated(body.inverse_inertia, body.rotation), bounded);
+    const Scaled factor = w.times_power_of_two(body.inverse_shift - 2 * body.scale);
+    body.angular_velocity = saturating_add(
+        body.angular_velocity, {times(turn.x, factor), times(turn.y, factor), times(turn.z, factor)});
+}
+
+Scaled kinetic_energy(const Body& body, const BodyDescription& description) {
+    const Scaled speed = Scaled::from_u128(fixed::length_squared(body.velocity), 2 * world_fraction_bits);
+    const Vec3 spin = fixed::rotate_transposed(body.rotation, body.angular_velocity);
+    const Vec3 momentum = multiply(description.properties.inertia, spin);
+    const fixed::Int128 product = fixed::multiply_signed(spin.x, momentum.x) +
+                                  fixed::multiply_signed(spin.y, momentum.y) +
+                                  fixed::multiply_signed(spin.z, momentum.z);
+    const Scaled turning = product.hi < 0 ? Scaled{}
+                                          : Scaled::from_u128(fixed::abs(product), 2 * world_fraction_bits)
+                                                .times_power_of_two(2 * description.properties.scale);
+    return (speed + turning) * description.properties.mass * Scaled::ratio(1, 2);
+}
+
+} // namespace lks

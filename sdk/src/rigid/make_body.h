@@ -1,0 +1,27 @@
+// Bodies from their definitions.
+#pragma once
+
+#include "rigid/body.h"
+
+namespace lks {
+
+// A checked definition.
+BodyDescription describe_body(const lks_body_def& def);
+// The other way round; `shapes` has room for LKS_MAX_BODY_SHAPES. Without where the body is.
+lks_body_def define_body(const BodyDescription& description, lks_body_shape* shapes);
+// At rest where the definition says, with its velocities.
+Body make_body(const BodyDescription& description, const lks_body_def& def);
+// What follows from the description alone; for new bodies and for those of images.
+void apply_description(Body& body, const BodyDescription& description);
+
+// Where the centre of mass is when the body's frame is at `position`, and the other way round.
+void place_body(Body& body, const BodyDescription& description, const fixed::Vec3& position,
+                const fixed::Rotation& rotation);
+fixed::Vec3 frame_position(const Body& body, const BodyDescription& description);
+
+fixed::Scaled inverse_mass(const Body& body);
+// N·s at a lever from the centre of mass, world axes.
+void apply_impulse(Body& body, const fixed::Vec3& impulse, const fixed::Vec3& lever);
+fixed::Scaled kinetic_energy(const Body& body, const BodyDescription& description);
+
+} // namespace lks

@@ -1,0 +1,66 @@
+#include "rigid/overlaps.h"
+
+#include <algorithm>
+
+namespace lks {
+
+Overlaps::Overlaps(const lks_allocator& allocator)
+    : boxes_(allocator), levels_(allocator), buckets_(allocator), starts_(allocator), sorted_(allocator) {}
+
+bool Overlaps::reserve(std::uint32_t count) {
+    std::size_t buckets = 16;
+    while (buckets < 2 * std::size_t{count}) {
+        buckets *= 2;
+    }
+    return boxes_.reserve(count) && levels_.reserve(count) && buckets_.reserve(count) &&
+           sorted_.reserve(count) && starts_.reserve(buckets + 1);
+}
+
+std::uint32_t Overlaps::bucket_of(const Cell& cell, std::uint32_t level) const {
+    std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x9e3779b97f4a7c15u;
+    hash = (hash ^ static_cast<std::uint64_t>(cell.y)) * 0xc2b2ae3d27d4eb4fu;
+    hash = (hash ^ static_cast<std::uint64_t>(cell.z)) * 0x165667b19e3779f9u;
+    hash += level * std::uint64_t{0x27d4eb2f165667c5u};
+    return static_cast<std::uint32_t>(hash >> 32) & bucket_mask_;
+}
+
+void Overlaps::sort_into_cells() {
+    const auto count = static_cast<std::uint32_t>(boxes_.size());
+    std::uint32_t bucket_count = 16;
+    while (bucket_count < 2 * count) {
+        bucket_count *= 2;
+    }
+    bucket_mask_ = bucket_count - 1;
+    present_ = 0;
+    // Within what reserve() made room for.
+    static_cast<void>(levels_.resize(count) && buckets_.resize(count) && sorted_.resize(count) &&
+                      starts_.resize(bucket_count + 1));
+    std::fill(starts_.begin(), starts_.end(), 0u);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Box& box = boxes_[i];
+        const std::int64_t size =
+            std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z});
+        std::uint32_t level = 0;
+        while (level < greatest_level && size >> (least_size_bits + level) != 0) {
+            ++level;
+        }
+        levels_[i] = static_cast<std::uint8_t>(level);
+        present_ |= std::uint64_t{1} << level;
+        buckets_[i] = bucket_of(cell_of(box.low, level), level);
+        ++starts_[buckets_[i] + 1];
+    }
+    for (std::uint32_t b = 0; b < bucket_count; ++b) {
+        starts_[b + 1] += starts_[b];
+    }
+    // From the last to the first, so that a bucket holds its boxes in ascending order; each start ends up
+    // where its bucket begins.
+    for (std::uint32_t i = count; i-- > 0;) {
+        sorted_[--starts_[buckets_[i] + 1]] = i;
+    }
+    for (std::uint32_t b = 0; b < bucket_count; ++b) {
+        starts_[b] = starts_[b + 1];
+    }
+    starts_[bucket_count] = count;
+}
+
+} // namespace lks

@@ -1,0 +1,103 @@
+// Which boxes overlap, of any number and of any sizes, in about linear time.
+//
+// A hashed grid for each power of two of sizes: a box stands in the cell of its lowest corner, in the grid
+// whose cells are just larger than it. Whatever it overlaps at its own level begins at most one cell before
+// it, and so does, at a coarser level, whatever is larger. A pair is found once: by the smaller one, or by
+// the one with the lower index.
+#pragma once
+
+#include <cstdint>
+
+#include "fixed/vector.h"
+#include "memory/array.h"
+
+namespace lks {
+
+// World; the ends belong to it.
+struct Box {
+    fixed::Vec3 low;
+    fixed::Vec3 high;
+
+    bool overlaps(const Box& other) const {
+        return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y &&
+               other.low.y <= high.y && low.z <= other.high.z && other.low.z <= high.z;
+    }
+};
+
+class Overlaps {
+public:
+    explicit Overlaps(const lks_allocator& allocator);
+
+    // Room for so many boxes. False: no memory.
+    [[nodiscard]] bool reserve(std::uint32_t count);
+
+    void clear() { boxes_.clear(); }
+    void add(const Box& box) { boxes_.push_reserved(box); }
+    const Box& box(std::uint32_t index) const { return boxes_[index]; }
+    // Calls use(i, j) for each overlapping pair, i < j, in an order that depends on the boxes only.
+    template <typename Use>
+    void for_each_pair(const Use& use) {
+        sort_into_cells();
+        for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
+            for (std::uint32_t level = levels_[i]; level <= greatest_level; ++level) {
+                if ((present_ >> level & 1) != 0) {
+                    search(i, level, use);
+                }
+            }
+        }
+    }
+
+private:
+    // 2^-10 m: everything smaller is at the first level. 2^20 m: no cell is larger.
+    static constexpr int least_size_bits = 30;
+    static constexpr std::uint32_t greatest_level = 30;
+
+    struct Cell {
+        std::int64_t x, y, z;
+        friend constexpr bool operator==(const Cell&, const Cell&) = default;
+    };
+
+    static Cell cell_of(const fixed::Vec3& point, std::uint32_t level) {
+        const int shift = least_size_bits + static_cast<int>(level);
+        return {point.x >> shift, point.y >> shift, point.z >> shift};
+    }
+    std::uint32_t bucket_of(const Cell& cell, std::uint32_t level) const;
+    void sort_into_cells();
+
+    template <typename Use>
+    void search(std::uint32_t i, std::uint32_t level, const Use& use) {
+        const Box& box = boxes_[i];
+        const Cell first = cell_of(box.low, level);
+        const Cell last = cell_of(box.high, level);
+        for (std::int64_t x = first.x - 1; x <= last.x; ++x) {
+            for (std::int64_t y = first.y - 1; y <= last.y; ++y) {
+                for (std::int64_t z = first.z - 1; z <= last.z; ++z) {
+                    search_cell(i, level, {x, y, z}, use);
+                }
+            }
+        }
+    }
+
+    template <typename Use>
+    void search_cell(std::uint32_t i, std::uint32_t level, const Cell& cell, const Use& use) {
+        const std::uint32_t bucket = bucket_of(cell, level);
+        for (std::uint32_t at = starts_[bucket]; at < starts_[bucket + 1]; ++at) {
+            const std::uint32_t j = sorted_[at];
+            if (levels_[j] != level || (level == levels_[i] && j <= i) || !boxes_[i].overlaps(boxes_[j]) ||
+                !(cell_of(boxes_[j].low, level) == cell)) {
+                continue;
+            }
+            use(i < j ? i : j, i < j ? j : i);
+        }
+    }
+
+    Array<Box> boxes_;
+    Array<std::uint8_t> levels_;
+    Array<std::uint32_t> buckets_; // by box
+    Array<std::uint32_t> starts_;  // by bucket, into sorted_
+    Array<std::uint32_t> sorted_;
+    std::uint32_t bucket_mask_ = 0;
+    std::uint64_t present_ = 0; // levels
+};
+
+} // namespace lks

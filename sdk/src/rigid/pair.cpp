@@ -1,0 +1,255 @@
+#include "rigid/pair.h"
+
+#include <algorithm>
+
+#include "fixed/formats.h"
+
+namespace lks {
+namespace {
+
+using fixed::Direction;
+using fixed::Vec3;
+
+constexpr std::int32_t one = direction_one;
+// Half turns of corrections have 33 fraction bits.
+constexpr int half_turn_bits = 33;
+// Beyond this a lever is so long against the body that the body turns as if it were heavier.
+constexpr std::int32_t greatest_weight_shift = 24;
+
+// value · 2^shift, rounded to the nearest; saturates at 2^50.
+std::int64_t shifted(std::int64_t value, int shift) {
+    constexpr std::int64_t limit = std::int64_t{1} << 50;
+    if (shift <= 0) {
+        return shift < -62 ? 0 : fixed::shift_right_rounded(value, -shift);
+    }
+    if (shift > 50 || value > (limit >> shift) || value < -(limit >> shift)) {
+        return value == 0 ? 0 : value < 0 ? -limit : limit;
+    }
+    return value * (std::int64_t{1} << shift);
+}
+
+std::int32_t share_of(const InverseMass& part, const InverseMass& whole) {
+    if (part.mantissa == 0) {
+        return 0;
+    }
+    // Both mantissas have their top bits; the quotient is at most one.
+    const int down = whole.exponent - part.exponent;
+    if (down > 32) {
+        return 0;
+    }
+    const std::uint64_t quotient = (std::uint64_t{part.mantissa} << 30) / whole.mantissa;
+    return static_cast<std::int32_t>(
+        std::min<std::uint64_t>(fixed::shift_right_rounded(quotient, down), one));
+}
+
+bool less(const InverseMass& a, const InverseMass& b) {
+    if (a.mantissa == 0 || b.mantissa == 0) {
+        return a.mantissa == 0 && b.mantissa != 0;
+    }
+    return a.exponent != b.exponent ? a.exponent < b.exponent : a.mantissa < b.mantissa;
+}
+
+Direction multiply_direction(const SymmetricMatrix& m, const Direction& v) {
+    return {fixed::dot(Direction{m.xx, m.xy, m.xz}, v), fixed::dot(Direction{m.xy, m.yy, m.yz}, v),
+            fixed::dot(Direction{m.xz, m.yz, m.zz}, v)};
+}
+
+// Of 30 fraction bits.
+Direction cross(const Direction& u, const Direction& v) {
+    const auto minor = [](std::int32_t p, std::int32_t q, std::int32_t r, std::int32_t t) {
+        return static_cast<std::int32_t>(
+            fixed::shift_right_rounded(std::int64_t{p} * q - std::int64_t{r} * t, 30));
+    };
+    return {minor(u.y, v.z, u.z, v.y), minor(u.z, v.x, u.x, v.z), minor(u.x, v.y, u.y, v.x)};
+}
+
+struct UnitLever {
+    Direction lever; // in units of 2^unit m, below one half
+    std::int32_t weight_shift;
+    std::int32_t turn_shift;
+};
+
+// Contacts lie within the body's own unit; joints may be further out.
+UnitLever to_unit(const Body& body, const Vec3& lever) {
+    const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
+    const std::int64_t greatest = std::max({size(lever.x), size(lever.y), size(lever.z)});
+    int unit = body.scale;
+    while (greatest >> (world_fraction_bits + unit - 1) != 0) {
+        ++unit;
+    }
+    const int down = world_fraction_bits - 30 + unit; // to 30 fraction bits
+    const auto part = [down](std::int64_t c) {
+        return static_cast<std::int32_t>(down >= 0 ? c >> down : c * (std::int64_t{1} << -down));
+    };
+    const int longer = unit - body.scale;
+    const int wanted = body.inverse_shift + 2 * longer;
+    const int weight_shift = std::min(wanted, greatest_weight_shift);
+    // Ĵ is in 1/unit², the arm in units: by 2^longer more, and over 2^scale for radians; half of the angle.
+    return {{part(lever.x), part(lever.y), part(lever.z)},
+            weight_shift,
+            body.inverse_shift + longer - body.scale - (wanted - weight_shift) - 1};
+}
+
+// share · quadratic form · 2^shift
+std::int64_t turning_weight(std::int32_t share, const Direction& turn, const Direction& arm, int shift) {
+    const std::int64_t form =
+        (std::int64_t{turn.x} * arm.x + std::int64_t{turn.y} * arm.y + std::int64_t{turn.z} * arm.z) >> 30;
+    return shifted((form * share) >> 30, shift);
+}
+
+} // namespace
+
+PairShares pair_shares(const InverseMass& a, const InverseMass& b) {
+    const InverseMass& greater = less(a, b) ? b : a;
+    return {share_of(a, greater), share_of(b, greater)};
+}
+
+Inverse invert(std::int64_t weight) {
+    const auto w = static_cast<std::uint64_t>(weight);
+    const int zeros = std::countl_zero(w);
+    // m in [1, 2) with 31 fraction bits: W = m · 2^(33 − zeros) (63 − zeros is the place of the top bit).
+    const auto m = static_cast<std::uint32_t>((w << zeros) >> 32);
+    return {fixed::reciprocal_mantissa(m), 31 + 33 - zeros};
+}
+
+std::int64_t divide(std::int64_t value, const Inverse& inverse) {
+    const std::int64_t high = (value >> 32) * static_cast<std::int64_t>(inverse.mantissa);
+    const std::int64_t low = (value & 0xffffffff) * static_cast<std::int64_t>(inverse.mantissa);
+    // value · mantissa = high · 2^32 + low; first by 2^-24, which keeps what matters within 64 bits.
+    const std::int64_t scaled = high * 256 + (low >> 24);
+    return shifted(scaled, 24 - inverse.shift);
+}
+
+RowSide push_side(const Body& body, std::int32_t share, const Direction& normal, const Vec3& lever,
+                  std::int64_t& weight) {
+    RowSide side{};
+    side.share = share;
+    if (share == 0) {
+        return side;
+    }
+    const UnitLever unit = to_unit(body, lever);
+    const Direction arm = cross(unit.lever, normal);
+    side.turn = multiply_direction(body.world_inverse, arm);
+    side.weight_shift = unit.weight_shift;
+    side.turn_shift = unit.turn_shift;
+    weight += share + turning_weight(share, side.turn, arm, side.weight_shift);
+    return side;
+}
+
+BlockSide block_side(const Body& body, std::int32_t share, const Vec3& lever, std::int64_t (&k)[6]) {
+    BlockSide side{};
+    side.share = share;
+    if (share == 0) {
+        return side;
+    }
+    const UnitLever unit = to_unit(body, lever);
+    side.lever = unit.lever;
+    side.weight_shift = unit.weight_shift;
+    side.turn_shift = unit.turn_shift;
+    Direction arms[3];
+    Direction turns[3];
+    for (int i = 0; i < 3; ++i) {
+        arms[i] = cross(unit.lever, {i == 0 ? one : 0, i == 1 ? one : 0, i == 2 ? one : 0});
+        turns[i] = multiply_direction(body.world_inverse, arms[i]);
+    }
+    int entry = 0;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = i; j < 3; ++j) {
+            k[entry++] += (i == j ? share : 0) + turning_weight(share, turns[i], arms[j], side.weight_shift);
+        }
+    }
+    return side;
+}
+
+RowSide turn_side(const Body& body, std::int32_t share, const Direction& axis, int reach,
+                  std::int64_t& weight) {
+    RowSide side{};
+    side.share = share;
+    if (share == 0) {
+        return side;
+    }
+    side.turn = multiply_direction(body.world_inverse, axis);
+    // Ĵ is in 1/(2^scale m)².
+    side.weight_shift = std::min(body.inverse_shift + 2 * (reach - body.scale), greatest_weight_shift);
+    side.turn_shift = side.weight_shift - 1;
+    weight += turning_weight(share, side.turn, axis, side.weight_shift);
+    return side;
+}
+
+void turn_body(Body& body, const Vec3& half_turn_33) {
+    constexpr std::int64_t limit = std::int64_t{1} << (half_turn_bits - 2);
+    const std::int64_t x = std::clamp(half_turn_33.x, -limit, limit);
+    const std::int64_t y = std::clamp(half_turn_33.y, -limit, limit);
+    const std::int64_t z = std::clamp(half_turn_33.z, -limit, limit);
+    if ((x | y | z) == 0) {
+        return;
+    }
+    // q += τ⊗q with 33 + 30 fraction bits.
+    const fixed::Rotation q = narrow(body.orientation);
+    const auto part = [](std::int64_t c) { return fixed::shift_right_rounded(c, 3); };
+    Quaternion& to = body.orientation;
+    to.x += part(x * q.w + y * q.z - z * q.y);
+    to.y += part(y * q.w + z * q.x - x * q.z);
+    to.z += part(z * q.w + x * q.y - y * q.x);
+    to.w -= part(x * q.x + y * q.y + z * q.z);
+    // Small turns leave the length as it is but for their square, and the end of the substep sees to that.
+    constexpr std::int64_t small = std::int64_t{1} << (half_turn_bits - 8);
+    if (std::max({x, y, z}) > small || std::min({x, y, z}) < -small) {
+        to = normalise(to);
+    }
+    body.follow_orientation();
+}
+
+void turn(Body& body, const RowSide& side, std::int64_t p, int sign) {
+    if (side.share == 0) {
+        return;
+    }
+    const std::int64_t own = sign * fixed::scale_component(side.share, p);
+    const int shift = side.turn_shift + half_turn_bits - world_fraction_bits;
+    const auto part = [&](std::int32_t c) { return shifted(fixed::scale_component(c, own), shift); };
+    turn_body(body, {part(side.turn.x), part(side.turn.y), part(side.turn.z)});
+}
+
+void turn(Body& body, std::int32_t share, int shift, const Vec3& p, int sign) {
+    const Vec3 turned = multiply(body.world_inverse, p);
+    const auto part = [&](std::int64_t c) {
+        return shifted(sign * fixed::scale_component(share, c), shift + half_turn_bits - world_fraction_bits);
+    };
+    turn_body(body, {part(turned.x), part(turned.y), part(turned.z)});
+}
+
+void push(Body& body, const BlockSide& side, const Vec3& p, int sign) {
+    if (side.share == 0) {
+        return;
+    }
+    const auto part = [&](std::int64_t c) { return sign * fixed::scale_component(side.share, c); };
+    body.position = body.position + Vec3{part(p.x), part(p.y), part(p.z)};
+    const Direction& r = side.lever;
+    const Vec3 arm{fixed::dot_components(0, -r.z, r.y, p), fixed::dot_components(r.z, 0, -r.x, p),
+                   fixed::dot_components(-r.y, r.x, 0, p)};
+    turn(body, side.share, side.turn_shift, arm, sign);
+}
+
+void accelerate(Body& body, const RowSide& side, const Direction& normal, std::int64_t p, int sign) {
+    if (side.share == 0) {
+        return;
+    }
+    const std::int64_t own = sign * fixed::scale_component(side.share, p);
+    body.velocity = body.velocity + fixed::scale(normal, own);
+    const auto part = [&](std::int32_t c) {
+        return shifted(fixed::scale_component(c, own), side.turn_shift + 1);
+    };
+    body.angular_velocity =
+        body.angular_velocity + Vec3{part(side.turn.x), part(side.turn.y), part(side.turn.z)};
+}
+
+void push(Body& body, const RowSide& side, const Vec3& p_normal, std::int64_t p, int sign) {
+    if (side.share == 0) {
+        return;
+    }
+    const auto part = [&](std::int64_t c) { return sign * fixed::scale_component(side.share, c); };
+    body.position = body.position + Vec3{part(p_normal.x), part(p_normal.y), part(p_normal.z)};
+    turn(body, side, p, sign);
+}
+
+} // namespace lks

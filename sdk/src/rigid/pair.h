@@ -1,0 +1,79 @@
+// Two bodies that a constraint moves, and a constraint's effect on them along one direction.
+//
+// Masses enter as shares of the greater inverse mass of the two, levers in each body's own unit of length
+// (rigid/inertia.h), so that
+//
+//     W = Σ wᵢ·(1 + (r̂ᵢ×n)ᵀ Ĵᵢ (r̂ᵢ×n))       for a push along n at r
+//     W = Σ wᵢ·Ĵᵢ-quadratic form of n            for a turn about n
+//
+// lie near one whatever the bodies weigh. What a projection moves is p = C/W, a length (or an angle), of
+// which each body takes its share: Δx = ±wᵢ·p·n, Δθ = ±wᵢ·p·Ĵᵢ(r̂ᵢ×n) (Müller et al. 2020, eq. 2 to 9). The
+// impulse is p·h⁻¹ / (the greater inverse mass).
+#pragma once
+
+#include "rigid/body.h"
+
+namespace lks {
+
+// Share of a body's inverse mass in the greater one of the pair, 30 fraction bits.
+struct PairShares {
+    std::int32_t a;
+    std::int32_t b;
+
+    friend constexpr bool operator==(const PairShares&, const PairShares&) = default;
+};
+
+// Both zero where both are infinitely heavy.
+PairShares pair_shares(const InverseMass& a, const InverseMass& b);
+
+// From 30 fraction bits, positive, to what divides by it: 1/W = mantissa · 2^-shift with W in units of one.
+struct Inverse {
+    std::uint32_t mantissa; // 2^30 .. 2^31
+    std::int32_t shift;     // value / W = value · mantissa · 2^-shift
+};
+
+// W: 30 fraction bits, above zero.
+Inverse invert(std::int64_t weight);
+// value / W to the nearest; saturates.
+std::int64_t divide(std::int64_t value, const Inverse& inverse);
+
+// One body's part in a row.
+struct RowSide {
+    fixed::Direction turn; // Ĵ(r̂×n), or Ĵn
+    std::int32_t share;
+    std::int32_t weight_shift; // the quadratic form is turn · (r̂×n) · 2^weight_shift
+    std::int32_t turn_shift;   // Δθ/2 = share · p · turn · 2^turn_shift
+};
+
+// A push along `normal` at `lever` (World, from the centre of mass, world axes).
+RowSide push_side(const Body& body, std::int32_t share, const fixed::Direction& normal,
+                  const fixed::Vec3& lever, std::int64_t& weight);
+// A turn about `axis`; angles count in metres at a radius of 2^reach m, which both sides of a pair share.
+RowSide turn_side(const Body& body, std::int32_t share, const fixed::Direction& axis, int reach,
+                  std::int64_t& weight);
+
+// One body's part in a push in any direction.
+struct BlockSide {
+    fixed::Direction lever; // in units of the body, 30 fraction bits
+    std::int32_t share;
+    std::int32_t weight_shift;
+    std::int32_t turn_shift;
+};
+
+// Adds the body's part to K = Σ wᵢ(1 − r̂ᵢ Ĵᵢ r̂ᵢ): xx, xy, xz, yy, yz, zz, 30 fraction bits.
+BlockSide block_side(const Body& body, std::int32_t share, const fixed::Vec3& lever, std::int64_t (&k)[6]);
+// By a push (World).
+void push(Body& body, const BlockSide& side, const fixed::Vec3& p, int sign);
+// By a turning push (World): Δθ = share · Ĵ · p · 2^shift.
+void turn(Body& body, std::int32_t share, int shift, const fixed::Vec3& p, int sign);
+
+// Moves a body by a push p (World) along the row's normal; `sign` is 1 or -1.
+void push(Body& body, const RowSide& side, const fixed::Vec3& p_normal, std::int64_t p, int sign);
+// Turns it only.
+void turn(Body& body, const RowSide& side, std::int64_t p, int sign);
+// The same for velocities: p in World m/s along `normal`.
+void accelerate(Body& body, const RowSide& side, const fixed::Direction& normal, std::int64_t p, int sign);
+// By a half turn in units of 2^-33, world axes, clamped to one quarter an axis.
+void turn_body(Body& body, const fixed::Vec3& half_turn_33);
+
+} // namespace lks

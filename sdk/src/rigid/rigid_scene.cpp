@@ -1,0 +1,50 @@
+#include "rigid/rigid_scene.h"
+
+#include <algorithm>
+
+namespace lks {
+
+RigidScene::RigidScene(const lks_allocator& allocator)
+    : body_slots(allocator), bodies(allocator), descriptions(allocator), joint_slots(allocator),
+      joints(allocator), memories(allocator), jointed(allocator), ticks(allocator),
+      collider_bodies(allocator), overlaps(allocator), boxed(allocator), pairs(allocator),
+      contacts(allocator), old_memories(allocator), loaded_kinds(allocator) {}
+
+bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
+    if (body_count == 0) {
+        return true;
+    }
+    const std::size_t boxes = body_count + collider_count;
+    return body_slots.reserve(body_count) && bodies.reserve(body_count) && descriptions.reserve(body_count) &&
+           ticks.reserve(body_count) && collider_bodies.reserve(collider_count) &&
+           overlaps.reserve(static_cast<std::uint32_t>(boxes)) && boxed.reserve(boxes) &&
+           pairs.reserve(pair_capacity(body_count)) && contacts.reserve(contact_capacity(body_count)) &&
+           memories.reserve(contact_capacity(body_count)) &&
+           old_memories.reserve(contact_capacity(body_count)) && loaded_kinds.reserve(body_count);
+}
+
+bool RigidScene::reserve_joints(std::size_t count) {
+    return joint_slots.reserve(count) && joints.reserve(count) && jointed.reserve(count);
+}
+
+void RigidScene::free_joint(std::uint32_t index) {
+    JointSlot& slot = joint_slots[index];
+    slot.used = false;
+    slot.generation = slot.generation == UINT32_MAX ? 1 : slot.generation + 1;
+    joints[index] = Joint{};
+}
+
+void RigidScene::follow_joints() {
+    jointed.clear();
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        const JointDescription& joint = joints[i].description;
+        if (joint_slots[i].used && joint.bodies_collide == 0) {
+            const std::uint64_t low = std::min(joint.body_a, joint.body_b);
+            const std::uint64_t high = std::max(joint.body_a, joint.body_b);
+            jointed.push_reserved(low << 32 | high);
+        }
+    }
+    std::sort(jointed.begin(), jointed.end());
+}
+
+} // namespace lks

@@ -1,0 +1,77 @@
+// All rigid bodies of a world, what holds them together, and what a tick needs for them. Empty, and free of
+// cost, where there are none.
+#pragma once
+
+#include <cstdint>
+
+#include "memory/array.h"
+#include "rigid/body.h"
+#include "rigid/contact.h"
+#include "rigid/joint.h"
+#include "rigid/overlaps.h"
+
+namespace lks {
+
+struct BodySlot {
+    std::uint32_t generation;
+    bool used;
+};
+
+struct JointSlot {
+    std::uint32_t generation;
+    bool used;
+};
+
+// What a contact hands on to the next tick. State: kept in ascending order of keys, and only where something
+// pushes.
+struct ContactMemory {
+    ContactKey key;
+    std::uint32_t count;
+    ContactPush pushes[greatest_point_count];
+};
+
+struct RigidScene {
+    explicit RigidScene(const lks_allocator& allocator);
+    RigidScene(const RigidScene&) = delete;
+    RigidScene& operator=(const RigidScene&) = delete;
+
+    // State, by slot.
+    Array<BodySlot> body_slots;
+    Array<Body> bodies;
+    Array<BodyDescription> descriptions;
+    Array<JointSlot> joint_slots;
+    Array<Joint> joints;
+    Array<ContactMemory> memories;
+
+    // Derived: body a << 32 | body b > a of joints whose bodies don't collide, ascending.
+    Array<std::uint64_t> jointed;
+
+    // Of a tick.
+    Array<BodyTick> ticks;       // by body
+    Array<Body> collider_bodies; // colliders as bodies of infinite mass, by slot
+    Overlaps overlaps;
+    Array<std::uint32_t> boxed; // by box: body, or collider | other_is_collider
+    Array<std::uint64_t> pairs; // body a << 32 | other, ascending
+    Array<Contact> contacts;
+    Array<ContactMemory> old_memories;
+    Array<std::uint8_t>
+        loaded_kinds; // scratch of a load: 1 + an lks_body_kind by body, 0 where there is none
+
+    // Room for everything that a tick with so many slots may need. False: no memory.
+    [[nodiscard]] bool reserve(std::size_t body_count, std::size_t collider_count);
+    [[nodiscard]] bool reserve_joints(std::size_t count);
+    void free_joint(std::uint32_t index);
+    // After joints came or went.
+    void follow_joints();
+    bool empty() const { return bodies.empty(); }
+};
+
+// How many pairs of bodies, and contacts of shapes, a tick has room for with so many slots.
+constexpr std::size_t pair_capacity(std::size_t bodies) {
+    return 64 + 32 * bodies;
+}
+constexpr std::size_t contact_capacity(std::size_t bodies) {
+    return 64 + 12 * bodies;
+}
+
+} // namespace lks

@@ -1,0 +1,190 @@
+#include "rigid/rigid_tick.h"
+
+#include <algorithm>
+
+#include "rigid/contact_search.h"
+#include "solver/world.h"
+
+namespace lks {
+namespace {
+
+class RigidTick {
+public:
+    explicit RigidTick(lks_world& world) : world_(world), scene_(world.rigid), rate_(world.rate) {
+        // What a substep of gravity alone gives a body is no impact.
+        const fixed::Vec3& g = world.gravity;
+        const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
+        least_approach_ = 4 * ((size(g.x) + size(g.y) + size(g.z)) / rate_.substeps_per_second) +
+                          (std::int64_t{1} << world_fraction_bits) / 100;
+    }
+
+    void run() {
+        begin();
+        find_contacts(world_);
+        any_restitution_ = false;
+        for (const Contact& contact : scene_.contacts) {
+            any_restitution_ = any_restitution_ || contact.restitution != 0;
+        }
+        for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
+            run_substep(substep);
+        }
+        finish();
+    }
+
+private:
+    bool used(std::size_t index) const { return scene_.body_slots[index].used; }
+
+    ContactBodies bodies_of(const Contact& contact) {
+        return {scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other)};
+    }
+
+    Body& body_a(const Joint& joint) { return scene_.bodies[joint.description.body_a]; }
+    Body& body_b(const Joint& joint) { return scene_.bodies[joint.description.body_b]; }
+
+    void project_joint(std::size_t index) {
+        if (scene_.joint_slots[index].used) {
+            Joint& joint = scene_.joints[index];
+            project(joint, body_a(joint), body_b(joint));
+        }
+    }
+
+    void begin() {
+        place_collider_bodies(world_);
+        scene_.ticks.clear();
+        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+            Body& body = scene_.bodies[i];
+            scene_.ticks.push_reserved(
+                used(i) ? make_body_tick(scene_.descriptions[i], world_.rate, world_.gravity) : BodyTick{});
+            body.previous_position = body.position;
+            body.previous_rotation = narrow(body.orientation);
+            body.tick_position = body.position;
+            body.tick_orientation = body.orientation;
+            body.follow_orientation();
+            body.world_inverse = rotated(body.inverse_inertia, body.rotation);
+        }
+    }
+
+    void run_substep(std::uint32_t substep) {
+        for (Contact& contact : scene_.contacts) {
+            if (contact.fast && substep > 1) {
+                find_points_again(world_, contact);
+            }
+            const ContactBodies bodies = bodies_of(contact);
+            begin_substep(contact, bodies.a, bodies.b);
+        }
+        strike_all();
+        predict(substep);
+        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+            if (scene_.joint_slots[i].used) {
+                Joint& joint = scene_.joints[i];
+                lks::begin_substep(joint, body_a(joint), body_b(joint));
+            }
+        }
+        for (Contact& contact : scene_.contacts) {
+            warm_start(contact, bodies_of(contact));
+        }
+        for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
+            // Forward and back: a sweep in one direction only makes tall stacks sway.
+            for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+                project_joint(i);
+            }
+            for (Contact& contact : scene_.contacts) {
+                project(contact, bodies_of(contact));
+            }
+            for (std::size_t i = scene_.contacts.size(); i-- > 0;) {
+                project(scene_.contacts[i], bodies_of(scene_.contacts[i]));
+            }
+            for (std::size_t i = scene_.joints.size(); i-- > 0;) {
+                project_joint(i);
+            }
+        }
+        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+            if (used(i) && scene_.bodies[i].is_dynamic()) {
+                finish_body(scene_.bodies[i], scene_.descriptions[i], rate_, world_.counters.speed_clamps);
+            }
+        }
+        for (const Contact& contact : scene_.contacts) {
+            restore_speed(contact, bodies_of(contact), least_approach_);
+        }
+        for (const Contact& contact : scene_.contacts) {
+            undo_overlap(contact, bodies_of(contact), rate_);
+        }
+    }
+
+    // An impact may cause the next one: forward and back, until nothing strikes any more.
+    void strike_all() {
+        if (!any_restitution_) {
+            return;
+        }
+        constexpr int most_passes = 8;
+        bool again = true;
+        for (int pass = 0; pass < most_passes && again; ++pass) {
+            again = false;
+            for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
+                const Contact& contact = scene_.contacts[pass % 2 == 0 ? i : scene_.contacts.size() - 1 - i];
+                again = strike(contact, bodies_of(contact), least_approach_, rate_) || again;
+            }
+        }
+    }
+
+    void predict(std::uint32_t substep) {
+        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+            if (!used(i)) {
+                continue;
+            }
+            Body& body = scene_.bodies[i];
+            if (body.is_dynamic()) {
+                predict_body(body, scene_.descriptions[i], scene_.ticks[i], rate_,
+                             world_.counters.speed_clamps);
+            } else {
+                place_kinematic(body, substep, world_.rate.substeps, rate_);
+            }
+        }
+        for (std::size_t i = 0; i < world_.colliders.size(); ++i) {
+            if (world_.colliders[i].used && world_.colliders[i].collider.moves()) {
+                place_kinematic(scene_.collider_bodies[i], substep, world_.rate.substeps, rate_);
+            }
+        }
+    }
+
+    void finish() {
+        scene_.memories.clear();
+        for (const Contact& contact : scene_.contacts) {
+            remember(contact);
+        }
+        for (Body& body : scene_.bodies) {
+            if (!body.is_dynamic()) {
+                body.target_orientation = body.orientation;
+            }
+        }
+    }
+
+    void remember(const Contact& contact) {
+        ContactMemory memory{};
+        memory.key = contact.key;
+        for (std::uint32_t i = 0; i < contact.count; ++i) {
+            if (contact.points[i].push.normal != 0) {
+                memory.pushes[memory.count++] = contact.points[i].push;
+            }
+        }
+        if (memory.count != 0) {
+            scene_.memories.push_reserved(memory);
+        }
+    }
+
+    lks_world& world_;
+    RigidScene& scene_;
+    MotionRate rate_;
+    std::int64_t least_approach_;
+    bool any_restitution_ = false;
+};
+
+} // namespace
+
+void run_rigid_tick(lks_world& world) {
+    if (!world.rigid.empty()) {
+        RigidTick(world).run();
+    }
+}
+
+} // namespace lks

@@ -1,0 +1,115 @@
+// What bodies, joints and contacts are made of, once for writing, reading and hashing.
+//
+// Io has u32(value), i64(value) and turns them into bytes, or bytes into them.
+#pragma once
+
+#include "rigid/make_body.h"
+#include "rigid/rigid_scene.h"
+
+namespace lks {
+
+template <typename Io, typename Vector>
+void vector_fields(Io& io, Vector& v) {
+    io.i64(v.x);
+    io.i64(v.y);
+    io.i64(v.z);
+}
+
+template <typename Io, typename Rotation>
+void rotation_fields(Io& io, Rotation& q) {
+    io.i32(q.x);
+    io.i32(q.y);
+    io.i32(q.z);
+    io.i32(q.w);
+}
+
+template <typename Io>
+void quaternion_fields(Io& io, Quaternion& q) {
+    io.i64(q.x);
+    io.i64(q.y);
+    io.i64(q.z);
+    io.i64(q.w);
+}
+
+// All shapes, used or not: every body has the same size.
+template <typename Io>
+void body_definition_fields(Io& io, lks_body_def& def, lks_body_shape (&shapes)[LKS_MAX_BODY_SHAPES]) {
+    io.u32(def.kind);
+    io.u32(def.shape_count);
+    for (lks_body_shape& shape : shapes) {
+        io.u32(shape.shape);
+        io.u32(shape.reserved);
+        vector_fields(io, shape.transform.position);
+        rotation_fields(io, shape.transform.rotation);
+        io.i64(shape.radius);
+        io.i64(shape.half_length);
+        vector_fields(io, shape.half_extents);
+        io.i64(shape.density);
+    }
+    io.i64(def.mass);
+    io.i64(def.gravity_factor);
+    io.i64(def.linear_damping);
+    io.i64(def.angular_damping);
+    io.i64(def.static_friction);
+    io.i64(def.dynamic_friction);
+    io.i64(def.restitution);
+    io.u32(def.filter.category);
+    io.u32(def.filter.mask);
+    io.i32(def.filter.group);
+    io.u32(def.reserved);
+}
+
+// Where it is in the world, and where it goes.
+template <typename Io>
+void body_place_fields(Io& io, Body& body) {
+    vector_fields(io, body.position);
+    vector_fields(io, body.target_position);
+}
+
+template <typename Io>
+void body_motion_fields(Io& io, Body& body) {
+    quaternion_fields(io, body.orientation);
+    quaternion_fields(io, body.target_orientation);
+    vector_fields(io, body.velocity);
+    vector_fields(io, body.angular_velocity);
+}
+
+template <typename Io>
+void joint_fields(Io& io, Joint& joint) {
+    JointDescription& d = joint.description;
+    io.u32(d.kind);
+    io.u32(d.body_a);
+    io.u32(d.body_b);
+    io.u32(d.bodies_collide);
+    vector_fields(io, d.point_a);
+    vector_fields(io, d.point_b);
+    rotation_fields(io, d.frame_a);
+    rotation_fields(io, d.frame_b);
+    io.i64(d.swing_limit);
+    io.i64(d.twist_min);
+    io.i64(d.twist_max);
+    io.i64(d.distance_min);
+    io.i64(d.distance_max);
+    io.i64(d.compliance);
+    io.i64(d.friction);
+    vector_fields(io, joint.push);
+    vector_fields(io, joint.turn);
+}
+
+template <typename Io>
+void memory_fields(Io& io, ContactMemory& memory) {
+    io.u32(memory.key.body_a);
+    io.u32(memory.key.other);
+    io.u32(memory.key.shapes);
+    io.u32(memory.count);
+    for (ContactPush& push : memory.pushes) {
+        io.u32(push.feature);
+        io.u32(push.reserved);
+        vector_fields(io, push.place);
+        io.i64(push.normal);
+        io.i64(push.across[0]);
+        io.i64(push.across[1]);
+    }
+}
+
+} // namespace lks

@@ -1,0 +1,313 @@
+#include "state/rigid_image.h"
+
+#include "api/body_checks.h"
+#include "api/joint_checks.h"
+#include "rigid/body_motion.h"
+#include "state/rigid_fields.h"
+
+namespace lks {
+namespace {
+
+class Writing {
+public:
+    explicit Writing(ByteWriter& out) : out_(out) {}
+    void u32(std::uint32_t value) { out_.u32(value); }
+    void i32(std::int32_t value) { out_.u32(static_cast<std::uint32_t>(value)); }
+    void i64(std::int64_t value) { out_.i64(value); }
+
+private:
+    ByteWriter& out_;
+};
+
+class Reading {
+public:
+    explicit Reading(ByteReader& in) : in_(in) {}
+    void u32(std::uint32_t& value) { value = in_.u32(); }
+    void i32(std::int32_t& value) { value = static_cast<std::int32_t>(in_.u32()); }
+    void i64(std::int64_t& value) { value = in_.i64(); }
+
+private:
+    ByteReader& in_;
+};
+
+class Hashing {
+public:
+    explicit Hashing(Hash& hash) : hash_(hash) {}
+    void u32(std::uint32_t value) { hash_.add_u32(value); }
+    void i32(std::int32_t value) { hash_.add_u32(static_cast<std::uint32_t>(value)); }
+    void i64(std::int64_t value) { hash_.add_i64(value); }
+
+private:
+    Hash& hash_;
+};
+
+constexpr std::size_t slot_size = 8;
+constexpr std::size_t shape_size = 8 + 24 + 16 + 16 + 24 + 8;
+constexpr std::size_t body_size =
+    8 + LKS_MAX_BODY_SHAPES * shape_size + 7 * 8 + 16 + 2 * 24 + 2 * 32 + 2 * 24;
+constexpr std::size_t joint_size = 16 + 2 * 24 + 2 * 16 + 7 * 8 + 2 * 24;
+constexpr std::size_t push_size = 8 + 24 + 24;
+constexpr std::size_t memory_size = 16 + greatest_point_count * push_size;
+
+// What an image says of one body.
+struct BodyRecord {
+    lks_body_def def{};
+    lks_body_shape shapes[LKS_MAX_BODY_SHAPES]{};
+    Body body{};
+};
+
+template <typename Io>
+void record_fields(Io& io, BodyRecord& record) {
+    body_definition_fields(io, record.def, record.shapes);
+    body_place_fields(io, record.body);
+    body_motion_fields(io, record.body);
+}
+
+BodyRecord record_of(const Body& body, const BodyDescription& description) {
+    BodyRecord record;
+    record.def = define_body(description, record.shapes);
+    record.body = body;
+    return record;
+}
+
+BodyRecord read_record(ByteReader& in) {
+    BodyRecord record;
+    Reading reading(in);
+    record_fields(reading, record);
+    record.def.struct_size = sizeof(lks_body_def);
+    record.def.shapes = record.shapes;
+    record.def.transform.rotation.w = LKS_ROTATION_ONE;
+    return record;
+}
+
+bool is_unit(const Quaternion& q) {
+    constexpr std::int64_t room = turn_one >> 20;
+    for (const std::int64_t part : {q.x, q.y, q.z, q.w}) {
+        if (!within(part, turn_one + room)) {
+            return false;
+        }
+    }
+    const std::int64_t squared =
+        multiply_turn(q.x, q.x) + multiply_turn(q.y, q.y) + multiply_turn(q.z, q.z) + multiply_turn(q.w, q.w);
+    return within(squared - turn_one, room);
+}
+
+bool within(const fixed::Vec3& v, std::int64_t limit) {
+    return lks::within(from_vec3(v), limit);
+}
+
+bool body_is_valid(const lks_world& world, const BodyRecord& record) {
+    const Body& body = record.body;
+    // Spins may go beyond the limit by what the middle of a substep differs from its end.
+    return check_body_def(world, record.def) == LKS_OK && within(body.position, world_position_limit) &&
+           within(body.target_position, world_position_limit) && is_unit(body.orientation) &&
+           is_unit(body.target_orientation) && within(body.velocity, body_speed_limit(world.rate)) &&
+           within(body.angular_velocity, 2 * body_spin_limit(world.rate));
+}
+
+// Ranges of joints are those of their definitions; the points are from the centres of mass, which lie within
+// 60 m of the frames that the game gave.
+bool joint_is_valid(const Joint& joint, const Array<std::uint8_t>& kinds) {
+    const JointDescription& d = joint.description;
+    if (d.body_a >= kinds.size() || d.body_b >= kinds.size() || kinds[d.body_a] == 0 ||
+        kinds[d.body_b] == 0) {
+        return false;
+    }
+    const bool moves = kinds[d.body_a] == 1 + LKS_BODY_DYNAMIC || kinds[d.body_b] == 1 + LKS_BODY_DYNAMIC;
+    constexpr lks_fixed half_circle = LKS_FIXED(180);
+    return moves && d.kind <= LKS_JOINT_DISTANCE && d.body_a != d.body_b && d.bodies_collide <= 1 &&
+           within(d.point_a, LKS_FIXED(124)) && within(d.point_b, LKS_FIXED(124)) &&
+           fixed::is_nearly_unit(d.frame_a) && fixed::is_nearly_unit(d.frame_b) && d.swing_limit >= 0 &&
+           d.swing_limit <= half_circle && d.twist_min >= -half_circle && d.twist_min <= d.twist_max &&
+           d.twist_max <= half_circle && d.distance_min >= 0 && d.distance_min <= d.distance_max &&
+           d.distance_max <= LKS_FIXED(64) && d.compliance >= 0 && d.compliance <= LKS_FIXED(1000) &&
+           d.friction >= 0 && d.friction <= LKS_FIXED(1000000);
+}
+
+bool memory_is_valid(const ContactMemory& memory) {
+    constexpr std::int64_t greatest_push = std::int64_t{1} << 50;
+    bool good = memory.key.body_a < LKS_MAX_BODIES && memory.key.shapes < 64 &&
+                (memory.key.other & ~other_is_collider) < LKS_MAX_BODIES && memory.count >= 1 &&
+                memory.count <= greatest_point_count;
+    for (const ContactPush& push : memory.pushes) {
+        good = good && push.reserved == 0 && push.normal >= 0 && push.normal <= greatest_push &&
+               lks::within(push.across[0], greatest_push) && lks::within(push.across[1], greatest_push) &&
+               within(push.place, LKS_FIXED(128));
+    }
+    return good;
+}
+
+} // namespace
+
+RigidCounts rigid_counts(const RigidScene& scene) {
+    return {static_cast<std::uint32_t>(scene.bodies.size()), static_cast<std::uint32_t>(scene.joints.size()),
+            static_cast<std::uint32_t>(scene.memories.size())};
+}
+
+std::size_t rigid_image_size(const RigidScene& scene) {
+    std::size_t size =
+        (scene.bodies.size() + scene.joints.size()) * slot_size + scene.memories.size() * memory_size;
+    for (const BodySlot& slot : scene.body_slots) {
+        size += slot.used ? body_size : 0;
+    }
+    for (const JointSlot& slot : scene.joint_slots) {
+        size += slot.used ? joint_size : 0;
+    }
+    return size;
+}
+
+void write_rigid(ByteWriter& out, const RigidScene& scene) {
+    Writing writing(out);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        out.u32(scene.body_slots[i].generation);
+        out.u32(scene.body_slots[i].used ? 1 : 0);
+        if (scene.body_slots[i].used) {
+            BodyRecord record = record_of(scene.bodies[i], scene.descriptions[i]);
+            record_fields(writing, record);
+        }
+    }
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        out.u32(scene.joint_slots[i].generation);
+        out.u32(scene.joint_slots[i].used ? 1 : 0);
+        if (scene.joint_slots[i].used) {
+            Joint joint = scene.joints[i];
+            joint_fields(writing, joint);
+        }
+    }
+    for (ContactMemory memory : scene.memories) {
+        memory_fields(writing, memory);
+    }
+}
+
+bool check_rigid(ByteReader& in, const RigidCounts& counts, lks_world& world, const char*& what,
+                 std::uint32_t& index) {
+    Reading reading(in);
+    what = "body";
+    Array<std::uint8_t>& kinds = world.rigid.loaded_kinds;
+    kinds.clear();
+    for (index = 0; index < counts.bodies && in.complete(); ++index) {
+        const std::uint32_t generation = in.u32();
+        const std::uint32_t used = in.u32();
+        if (generation == 0 || used > 1) {
+            return false;
+        }
+        kinds.push_reserved(0);
+        if (used == 1) {
+            const BodyRecord record = read_record(in);
+            if (!body_is_valid(world, record)) {
+                return false;
+            }
+            kinds[index] = static_cast<std::uint8_t>(1 + record.def.kind);
+        }
+    }
+    what = "joint";
+    for (index = 0; index < counts.joints && in.complete(); ++index) {
+        const std::uint32_t generation = in.u32();
+        const std::uint32_t used = in.u32();
+        Joint joint{};
+        if (used == 1) {
+            joint_fields(reading, joint);
+        }
+        if (generation == 0 || used > 1 || (used == 1 && !joint_is_valid(joint, kinds))) {
+            return false;
+        }
+    }
+    what = "contact";
+    ContactKey last{};
+    for (index = 0; index < counts.memories && in.complete(); ++index) {
+        ContactMemory memory{};
+        memory_fields(reading, memory);
+        if (!memory_is_valid(memory) || (index > 0 && !(last < memory.key))) {
+            return false;
+        }
+        last = memory.key;
+    }
+    return in.complete();
+}
+
+void read_rigid(ByteReader& in, const RigidCounts& counts, const StepRate& rate, RigidScene& scene) {
+    Reading reading(in);
+    scene.body_slots.clear();
+    scene.bodies.clear();
+    scene.descriptions.clear();
+    for (std::uint32_t i = 0; i < counts.bodies; ++i) {
+        const std::uint32_t generation = in.u32();
+        const bool used = in.u32() != 0;
+        scene.body_slots.push_reserved(BodySlot{generation, used});
+        Body body{};
+        BodyDescription description{};
+        if (used) {
+            const BodyRecord record = read_record(in);
+            description = describe_body(record.def);
+            body = record.body;
+            apply_description(body, description);
+            body.follow_orientation();
+            // There is no tick before for the view to start from.
+            body.previous_position = body.position;
+            body.previous_rotation = narrow(body.orientation);
+        }
+        scene.bodies.push_reserved(body);
+        scene.descriptions.push_reserved(description);
+    }
+    scene.joint_slots.clear();
+    scene.joints.clear();
+    for (std::uint32_t i = 0; i < counts.joints; ++i) {
+        const std::uint32_t generation = in.u32();
+        const bool used = in.u32() != 0;
+        scene.joint_slots.push_reserved(JointSlot{generation, used});
+        Joint joint{};
+        if (used) {
+            joint_fields(reading, joint);
+            const JointDescription& d = joint.description;
+            joint.constants = make_joint_constants(d, scene.bodies[d.body_a], scene.bodies[d.body_b], rate);
+        }
+        scene.joints.push_reserved(joint);
+    }
+    scene.memories.clear();
+    for (std::uint32_t i = 0; i < counts.memories; ++i) {
+        ContactMemory memory{};
+        memory_fields(reading, memory);
+        scene.memories.push_reserved(memory);
+    }
+    scene.follow_joints();
+}
+
+void hash_rigid(Hash& hash, const RigidScene& scene, bool local) {
+    // A world without bodies has the hash that it had before there were any.
+    if (scene.body_slots.empty()) {
+        return;
+    }
+    Hashing hashing(hash);
+    hash.add_u32(static_cast<std::uint32_t>(scene.bodies.size()));
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        hash.add_u32(scene.body_slots[i].generation);
+        hash.add_u32(scene.body_slots[i].used ? 1 : 0);
+        if (scene.body_slots[i].used) {
+            BodyRecord record = record_of(scene.bodies[i], scene.descriptions[i]);
+            Body& body = record.body;
+            body_definition_fields(hashing, record.def, record.shapes);
+            if (local) {
+                fixed::Vec3 motion = body.target_position - body.position;
+                vector_fields(hashing, motion);
+            } else {
+                body_place_fields(hashing, body);
+            }
+            body_motion_fields(hashing, body);
+        }
+    }
+    hash.add_u32(static_cast<std::uint32_t>(scene.joints.size()));
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        hash.add_u32(scene.joint_slots[i].generation);
+        hash.add_u32(scene.joint_slots[i].used ? 1 : 0);
+        if (scene.joint_slots[i].used) {
+            Joint joint = scene.joints[i];
+            joint_fields(hashing, joint);
+        }
+    }
+    hash.add_u32(static_cast<std::uint32_t>(scene.memories.size()));
+    for (ContactMemory memory : scene.memories) {
+        memory_fields(hashing, memory);
+    }
+}
+
+} // namespace lks

@@ -1,0 +1,235 @@
+// Bodies, joints and ragdolls that are refused, each with a sentence, and hard ones that are not.
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <functional>
+
+#include "support/bodies.h"
+#include "support/refusals.h"
+
+using namespace support;
+
+namespace {
+
+void check_refused(const World& world, lks_result result, lks_result expected, const std::string& value,
+                   std::uint64_t hash) {
+    INFO("value: " << value);
+    CHECK(result == expected);
+    check_sentence(world.message(), value);
+    CHECK(world.hash() == hash);
+}
+
+struct BodyCase {
+    std::function<void(lks_body_def&, lks_body_shape&)> change;
+    const char* value;
+    lks_result expected = LKS_ERROR_INVALID_ARGUMENT;
+};
+
+struct JointCase {
+    std::function<void(lks_joint_def&)> change;
+    const char* value;
+    lks_result expected = LKS_ERROR_INVALID_ARGUMENT;
+};
+
+} // namespace
+
+TEST_CASE("bodies out of range are refused") {
+    World world;
+    add_body(world, ball_shape(0.1), {});
+    const std::uint64_t hash = world.hash();
+    const BodyCase cases[] = {
+        {[](lks_body_def& d, lks_body_shape&) { d.mass = fixed(-1); }, "-1"},
+        {[](lks_body_def& d, lks_body_shape&) { d.mass = fixed(1e-9); }, "mass"},
+        {[](lks_body_def& d, lks_body_shape&) { d.mass = fixed(2000000); }, "2000000"},
+        {[](lks_body_def&, lks_body_shape& s) { s.density = 0; }, "density 0"},
+        {[](lks_body_def&, lks_body_shape& s) { s.radius = 0; }, "radius 0"},
+        {[](lks_body_def&, lks_body_shape& s) { s.radius = fixed(31); }, "31"},
+        {[](lks_body_def&, lks_body_shape& s) { s.shape = LKS_SHAPE_PLANE; }, "shape 0"},
+        {[](lks_body_def&, lks_body_shape& s) { s.shape = 9; }, "shape 9"},
+        {[](lks_body_def&, lks_body_shape& s) {
+             s.shape = LKS_SHAPE_BOX;
+             s.half_extents.y = fixed(-0.5);
+         },
+         "half extent y -0.5"},
+        {[](lks_body_def&, lks_body_shape& s) {
+             s.shape = LKS_SHAPE_CAPSULE;
+             s.half_length = fixed(-0.25);
+         },
+         "half_length -0.25"},
+        {[](lks_body_def&, lks_body_shape& s) { s.transform.position.x = fixed(40); }, "40"},
+        {[](lks_body_def&, lks_body_shape& s) { s.transform.rotation.w = 0; }, "quaternion"},
+        {[](lks_body_def&, lks_body_shape& s) { s.reserved = 5; }, "5"},
+        {[](lks_body_def& d, lks_body_shape&) {
+             d.transform.rotation = {0, 0, 0, 0};
+         },
+         "quaternion"},
+        {[](lks_body_def& d, lks_body_shape&) {
+             d.transform.rotation = {1 << 30, 0, 0, 1 << 30};
+         },
+         "1073741824"},
+        {[](lks_body_def& d, lks_body_shape&) { d.transform.position.y = LKS_FIXED(8388001); }, "8388001"},
+        {[](lks_body_def& d, lks_body_shape&) { d.velocity.z = fixed(1001); }, "1001"},
+        {[](lks_body_def& d, lks_body_shape&) { d.angular_velocity.x = fixed(5000); }, "5000"},
+        {[](lks_body_def& d, lks_body_shape&) { d.kind = 2; }, "kind is 2"},
+        {[](lks_body_def& d, lks_body_shape&) { d.shape_count = 0; }, "0 shapes"},
+        {[](lks_body_def& d, lks_body_shape&) { d.shape_count = 9; }, "9 shapes"},
+        {[](lks_body_def& d, lks_body_shape&) { d.shapes = nullptr; }, "null", LKS_ERROR_NULL_ARGUMENT},
+        {[](lks_body_def& d, lks_body_shape&) { d.struct_size = 12; }, "12", LKS_ERROR_STRUCT_SIZE},
+        {[](lks_body_def& d, lks_body_shape&) { d.restitution = fixed(1.5); }, "1.5"},
+        {[](lks_body_def& d, lks_body_shape&) { d.dynamic_friction = fixed(0.75); }, "0.75"},
+        {[](lks_body_def& d, lks_body_shape&) { d.linear_damping = fixed(-1); }, "damping -1"},
+        {[](lks_body_def& d, lks_body_shape&) { d.gravity_factor = fixed(101); }, "101"},
+    };
+    for (const BodyCase& bad : cases) {
+        lks_body_shape shape = ball_shape(0.1);
+        lks_body_def def = lks_default_body_def();
+        def.shapes = &shape;
+        def.shape_count = 1;
+        bad.change(def, shape);
+        lks_body_id id{77, 88};
+        check_refused(world, lks_world_add_body(world, &def, &id), bad.expected, bad.value, hash);
+        CHECK(id.index == 77);
+    }
+    CHECK(lks_world_body_count(world) == 1);
+}
+
+TEST_CASE("calls on bodies that are gone or of the wrong kind are refused") {
+    World world;
+    const lks_body_id body = add_body(world, ball_shape(0.1), {});
+    const lks_body_id gone = add_body(world, ball_shape(0.1), fixed(1, 0, 0));
+    const lks_body_id anchor = add_anchor(world, fixed(2, 0, 0));
+    REQUIRE(lks_world_remove_body(world, gone) == LKS_OK);
+    const std::uint64_t hash = world.hash();
+    const lks_transform here = lks_transform_identity();
+    check_refused(world, lks_world_remove_body(world, gone), LKS_ERROR_STALE_ID, "index 1", hash);
+    check_refused(world, lks_body_set_transform(world, gone, here), LKS_ERROR_STALE_ID, "index 1", hash);
+    check_refused(world, lks_body_apply_impulse(world, gone, {}, {}), LKS_ERROR_STALE_ID, "index 1", hash);
+    check_refused(world, lks_body_move_to(world, body, here), LKS_ERROR_UNSUPPORTED, "dynamic", hash);
+    check_refused(world, lks_body_set_velocity(world, anchor, {}, {}), LKS_ERROR_UNSUPPORTED, "kinematic",
+                  hash);
+    check_refused(world, lks_body_apply_impulse(world, body, {}, fixed(70, 0, 0)), LKS_ERROR_INVALID_ARGUMENT,
+                  "70", hash);
+    lks_transform far = here;
+    far.position.x = fixed(500);
+    check_refused(world, lks_body_move_to(world, anchor, far), LKS_ERROR_INVALID_ARGUMENT, "498", hash);
+    check_refused(world, lks_body_set_velocity(world, body, fixed(2000, 0, 0), {}),
+                  LKS_ERROR_INVALID_ARGUMENT, "2000", hash);
+    CHECK(lks_world_has_body(world, gone) == 0);
+    CHECK(lks_world_has_body(world, body) == 1);
+}
+
+TEST_CASE("joints out of range, between the same or two kinematic bodies, are refused") {
+    World world;
+    const lks_body_id a = add_body(world, ball_shape(0.1), {});
+    const lks_body_id b = add_body(world, ball_shape(0.1), fixed(1, 0, 0));
+    const lks_body_id fixed_one = add_anchor(world, fixed(2, 0, 0));
+    const lks_body_id fixed_two = add_anchor(world, fixed(3, 0, 0));
+    const std::uint64_t hash = world.hash();
+    const JointCase cases[] = {
+        {[](lks_joint_def& d) { d.kind = 4; }, "kind 4"},
+        {[](lks_joint_def& d) { d.body_b = d.body_a; }, "same"},
+        {[&](lks_joint_def& d) { d.body_a = fixed_one, d.body_b = fixed_two; }, "kinematic"},
+        {[](lks_joint_def& d) { d.body_b.generation = 9; }, "generation 9", LKS_ERROR_STALE_ID},
+        {[](lks_joint_def& d) { d.twist_min = fixed(30), d.twist_max = fixed(20); }, "twist_min 30"},
+        {[](lks_joint_def& d) { d.twist_max = fixed(181); }, "181"},
+        {[](lks_joint_def& d) { d.swing_limit = fixed(200); }, "200"},
+        {[](lks_joint_def& d) { d.swing_limit = fixed(-1); }, "-1"},
+        {[](lks_joint_def& d) { d.distance_min = fixed(2), d.distance_max = fixed(1); }, "distance_min 2"},
+        {[](lks_joint_def& d) { d.frame_a.position.z = fixed(65); }, "65"},
+        {[](lks_joint_def& d) {
+             d.frame_b.rotation = {0, 0, 0, 5};
+         },
+         "quaternion"},
+        {[](lks_joint_def& d) { d.compliance = fixed(-1); }, "compliance -1"},
+        {[](lks_joint_def& d) { d.friction = fixed(-1); }, "friction -1"},
+        {[](lks_joint_def& d) { d.bodies_collide = 2; }, "2"},
+        {[](lks_joint_def& d) { d.struct_size = 1; }, "1", LKS_ERROR_STRUCT_SIZE},
+    };
+    for (const JointCase& bad : cases) {
+        lks_joint_def def = lks_default_joint_def();
+        def.body_a = a;
+        def.body_b = b;
+        bad.change(def);
+        lks_joint_id id{};
+        check_refused(world, lks_world_add_joint(world, &def, &id), bad.expected, bad.value, hash);
+    }
+    const lks_joint_id joint = add_joint(world, lks_default_joint_def(), a, b);
+    CHECK(lks_world_joint_count(world) == 1);
+    REQUIRE(lks_world_remove_body(world, b) == LKS_OK);
+    CHECK(lks_world_joint_count(world) == 0);
+    CHECK(lks_world_has_joint(world, joint) == 0);
+    check_refused(world, lks_world_remove_joint(world, joint), LKS_ERROR_STALE_ID, "index 0", world.hash());
+}
+
+TEST_CASE("ragdolls with trees that are none are refused whole") {
+    World world;
+    lks_bone bones[LKS_HUMANOID_BONES];
+    lks_body_shape shapes[LKS_HUMANOID_BONES];
+    const auto check = [&](const std::function<void(lks_ragdoll_def&)>& change, const char* value,
+                           lks_result expected = LKS_ERROR_INVALID_ARGUMENT) {
+        REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
+        lks_ragdoll_def def = lks_default_ragdoll_def();
+        def.bones = bones;
+        def.bone_count = LKS_HUMANOID_BONES;
+        change(def);
+        lks_body_id ids[LKS_HUMANOID_BONES];
+        const std::uint64_t hash = world.hash();
+        check_refused(world, lks_world_add_ragdoll(world, &def, ids, nullptr), expected, value, hash);
+        CHECK(lks_world_body_count(world) == 0);
+    };
+    check([&](lks_ragdoll_def&) { bones[3].parent = 5; }, "bone 3");
+    check([&](lks_ragdoll_def&) { bones[3].parent = 3; }, "parent 3");
+    check([&](lks_ragdoll_def&) { bones[0].parent = 1; }, "root");
+    check([&](lks_ragdoll_def&) { bones[4].parent = LKS_NO_PARENT; }, "bone 4");
+    check([&](lks_ragdoll_def&) { bones[4].joint_kind = LKS_JOINT_DISTANCE; }, "kind 3");
+    check([&](lks_ragdoll_def&) { bones[14].twist_min = fixed(90); }, "twist_min 90");
+    check([&](lks_ragdoll_def&) { shapes[7].radius = 0; }, "radius 0");
+    check([&](lks_ragdoll_def&) { bones[7].body.shapes = nullptr; }, "null", LKS_ERROR_NULL_ARGUMENT);
+    check([&](lks_ragdoll_def& d) { d.bone_count = 0; }, "0 bones");
+    check([&](lks_ragdoll_def& d) { d.bone_count = 300; }, "300 bones");
+    check([&](lks_ragdoll_def& d) { d.scale = fixed(0.01); }, "0.01");
+    check([&](lks_ragdoll_def& d) { d.scale = fixed(25); }, "25");
+    check([&](lks_ragdoll_def& d) { d.transform.rotation.w = 1; }, "quaternion");
+    check([&](lks_ragdoll_def& d) { d.struct_size = 3; }, "3", LKS_ERROR_STRUCT_SIZE);
+}
+
+TEST_CASE("what is hard but allowed ends where it can") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    // In exactly the same place; a capsule without length; two bodies that share nothing but a point.
+    for (int i = 0; i < 3; ++i) {
+        add_body(world, box_shape(0.2, 0.2, 0.2), fixed(0, 1, 0));
+        add_body(world, capsule_shape(0.2, 0), fixed(0, 1, 0));
+        add_body(world, ball_shape(0.2), fixed(0, 1, 0));
+    }
+    // A bone pulled at the speed limit, far from where its joint has it.
+    lks_body_def def = lks_default_body_def();
+    const lks_body_id anchor = add_anchor(world, fixed(3, 2, 0));
+    def.velocity = fixed(1000, -1000, 1000);
+    def.angular_velocity = {lks_world_spin_limit(world), -lks_world_spin_limit(world), 0};
+    const lks_body_id bone = add_body(world, capsule_shape(0.05, 0.2), fixed(20, 2, 0), def);
+    lks_joint_def joint = lks_default_joint_def();
+    joint.frame_b.position = fixed(0, 0.25, 0);
+    const lks_joint_id id = add_joint(world, joint, anchor, bone);
+    // A mass of a ton on a rod that is all but massless.
+    def = lks_default_body_def();
+    def.mass = fixed(0.001);
+    const lks_body_id thread = add_body(world, capsule_shape(0.002, 0.5), fixed(-3, 3, 0), def);
+    def.mass = fixed(1000);
+    const lks_body_id weight = add_body(world, ball_shape(0.3), fixed(-3, 2.2, 0), def);
+    joint = lks_default_joint_def();
+    joint.frame_a.position = fixed(0, -0.5, 0);
+    joint.frame_b.position = fixed(0, 0.3, 0);
+    add_joint(world, joint, thread, weight);
+    world.step(1200);
+    lks_fixed error = 0;
+    REQUIRE(lks_joint_error(world, id, &error) == LKS_OK);
+    CHECK(metres(error) < 0.05);
+    for (std::uint32_t i = 0; i < 9; ++i) {
+        const BodyState state = state_of(world, {i, 1});
+        CHECK(state.position.length() < 30);
+        CHECK(state.position.y > 0.15);
+    }
+    CHECK(energy_of(world) < 100);
+    CHECK(world.counters().lost_contacts == 0);
+}

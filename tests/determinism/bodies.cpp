@@ -1,0 +1,189 @@
+// Rigid bodies are part of the state: saved, loaded into fresh and dirty worlds, moved and replayed to the
+// bit.
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "support/bodies.h"
+
+using namespace support;
+
+namespace {
+
+// Two humanoids that fall onto each other, a stack, a ball that bounces into it, a moved plank, a rope's
+// worth of links: contacts and joints of every kind.
+class Playground {
+public:
+    explicit Playground(const lks_vec3& offset = {}, std::uint32_t workers = 1)
+        : world(settings(workers)), offset_(offset) {
+        lks_collider_def ground = lks_default_collider_def();
+        ground.shape = LKS_SHAPE_PLANE;
+        ground.transform.position = place(0, 0, 0);
+        world.add(ground);
+        lks_collider_def step = lks_default_collider_def();
+        step.shape = LKS_SHAPE_BOX;
+        step.half_extents = fixed(0.5, 0.2, 1);
+        step.transform.position = place(0.6, 0.2, 0);
+        world.add(step);
+        add_humanoids();
+        for (int i = 0; i < 4; ++i) {
+            add_body(world, box_shape(0.2, 0.2, 0.2), place(-2, 0.2 + 0.4 * i, 0));
+        }
+        lks_body_def ball = lks_default_body_def();
+        ball.restitution = fixed(0.6);
+        ball.velocity = fixed(0, 2, -6);
+        add_body(world, ball_shape(0.2), place(-2, 0.8, 3), ball);
+        add_plank();
+        add_links();
+    }
+
+    void tick(int count) {
+        for (int i = 0; i < count; ++i) {
+            give_inputs();
+            world.step();
+        }
+    }
+
+    World world;
+    lks_body_id plank{};
+
+private:
+    static lks_world_def settings(std::uint32_t workers) {
+        lks_world_def def = world_def(60, 6);
+        def.worker_count = workers;
+        return def;
+    }
+
+    lks_vec3 place(double x, double y, double z) const { return offset_ + fixed(x, y, z); }
+
+    void add_humanoids() {
+        lks_bone bones[LKS_HUMANOID_BONES];
+        lks_body_shape shapes[LKS_HUMANOID_BONES];
+        REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
+        for (int i = 0; i < 2; ++i) {
+            lks_ragdoll_def def = lks_default_ragdoll_def();
+            def.bones = bones;
+            def.bone_count = LKS_HUMANOID_BONES;
+            def.transform.position = place(0.1 + 0.2 * i, 0.5 + 0.7 * i, 0.1 - 0.2 * i);
+            REQUIRE(lks_rotation_from_axis_angle(1, 0.2, 0.1 * i, 60 + 70 * i, &def.transform.rotation) ==
+                    LKS_OK);
+            def.scale = fixed(1 - 0.3 * i);
+            lks_body_id ids[LKS_HUMANOID_BONES];
+            REQUIRE(lks_world_add_ragdoll(world, &def, ids, nullptr) == LKS_OK);
+        }
+    }
+
+    void add_plank() {
+        lks_body_def def = lks_default_body_def();
+        def.kind = LKS_BODY_KINEMATIC;
+        plank = add_body(world, box_shape(1, 0.05, 0.3), place(3, 0.5, 0), def);
+        add_body(world, capsule_shape(0.1, 0.3), place(3, 0.8, 0));
+    }
+
+    void add_links() {
+        lks_body_id last = plank;
+        for (int i = 0; i < 4; ++i) {
+            const lks_body_id link = add_body(world, capsule_shape(0.03, 0.07), place(4, 0.4 - 0.2 * i, 0));
+            lks_joint_def joint = lks_default_joint_def();
+            joint.kind = i == 2 ? LKS_JOINT_DISTANCE : i == 3 ? LKS_JOINT_FIXED : LKS_JOINT_BALL;
+            joint.frame_a.position = i == 0 ? fixed(1, 0, 0) : fixed(0, -0.1, 0);
+            joint.frame_b.position = fixed(0, 0.1, 0);
+            joint.distance_max = fixed(0.02);
+            joint.compliance = i == 1 ? fixed(1e-4) : 0;
+            add_joint(world, joint, last, link);
+            last = link;
+        }
+    }
+
+    void give_inputs() {
+        const auto tick = static_cast<std::int64_t>(world.tick());
+        lks_transform target{};
+        REQUIRE(lks_body_transform(world, plank, &target) == LKS_OK);
+        target.position.y =
+            offset_.y + fixed(0.5) + (tick % 120 < 60 ? tick % 60 : 60 - tick % 60) * fixed(0.01);
+        REQUIRE(lks_body_move_to(world, plank, target) == LKS_OK);
+        if (tick % 40 == 7) {
+            REQUIRE(lks_body_apply_impulse(world, {2, 1}, fixed(5, 20, -3), place(0.1, 1, 0)) == LKS_OK);
+        }
+    }
+
+    lks_vec3 offset_;
+};
+
+} // namespace
+
+TEST_CASE("bodies saved in the middle of a pile go on with the same bits, in a fresh and in a dirty world") {
+    Playground original;
+    original.tick(45);
+    const Image image = original.world.save();
+    Playground dirty({}, 1);
+    dirty.tick(200);
+    Playground fresh;
+    REQUIRE(lks_world_load(dirty.world, image.data(), image.size()) == LKS_OK);
+    REQUIRE(lks_world_load(fresh.world, image.data(), image.size()) == LKS_OK);
+    World empty(world_def(60, 6));
+    REQUIRE(lks_world_load(empty, image.data(), image.size()) == LKS_OK);
+    CHECK(empty.hash() == original.world.hash());
+    CHECK(empty.save() == image);
+    for (int i = 0; i < 120; ++i) {
+        REQUIRE(dirty.world.hash() == original.world.hash());
+        REQUIRE(fresh.world.hash() == original.world.hash());
+        original.tick(5);
+        dirty.tick(5);
+        fresh.tick(5);
+    }
+    CHECK(dirty.world.save() == original.world.save());
+}
+
+TEST_CASE("rolling back and running again gives the same bits at every tick") {
+    Playground playground;
+    playground.tick(20);
+    for (int round = 0; round < 20; ++round) {
+        const Image image = playground.world.save();
+        playground.tick(7);
+        const std::uint64_t hash = playground.world.hash();
+        const lks_result loaded = lks_world_load(playground.world, image.data(), image.size());
+        INFO(playground.world.message());
+        REQUIRE(loaded == LKS_OK);
+        playground.tick(7);
+        REQUIRE(playground.world.hash() == hash);
+    }
+}
+
+TEST_CASE("where in the world bodies are changes no bit of how they move") {
+    const lks_vec3 offsets[] = {{12345678901, -98765432109, 55555555555},
+                                fixed(7000000, -7000000, 7000000.25)};
+    for (const lks_vec3& offset : offsets) {
+        Playground here;
+        Playground there(offset);
+        for (int i = 0; i < 60; ++i) {
+            REQUIRE(here.world.local_hash() == there.world.local_hash());
+            here.tick(5);
+            there.tick(5);
+        }
+        CHECK(here.world.hash() != there.world.hash());
+    }
+}
+
+TEST_CASE("bodies don't depend on the number of workers") {
+    Playground one;
+    Playground three({}, 3);
+    one.tick(120);
+    three.tick(120);
+    CHECK(one.world.hash() == three.world.hash());
+}
+
+TEST_CASE("a broken image of bodies is refused and leaves the world as it was") {
+    Playground playground;
+    playground.tick(30);
+    const Image good = playground.world.save();
+    World world(world_def(60, 6));
+    REQUIRE(lks_world_load(world, good.data(), good.size()) == LKS_OK);
+    const std::uint64_t hash = world.hash();
+    Image bad = good;
+    bad.bytes()[good.size() / 2] ^= 1;
+    CHECK(lks_world_load(world, bad.data(), bad.size()) == LKS_ERROR_CORRUPT_IMAGE);
+    CHECK(world.hash() == hash);
+    CHECK(lks_world_load(world, good.data(), good.size() - 8) == LKS_ERROR_CORRUPT_IMAGE);
+    CHECK(world.hash() == hash);
+}

@@ -1,0 +1,228 @@
+// How rigid bodies move and touch, against what mechanics says.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/bodies.h"
+
+using namespace support;
+
+namespace {
+
+constexpr double g = 9.81;
+
+// World axes from a body's.
+Vector rotate(const lks_rotation& q, const Vector& v) {
+    const Vector u = Vector{double(q.x), double(q.y), double(q.z)} * 0x1p-30;
+    const double w = q.w * 0x1p-30;
+    const auto cross = [](const Vector& a, const Vector& b) {
+        return Vector{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    };
+    const Vector t = cross(u, v) * 2;
+    return v + t * w + cross(u, t);
+}
+
+// Angular momentum per kilogram of a box of these half extents, in world axes.
+Vector momentum(const BodyState& body, const Vector& e) {
+    const lks_rotation back{-body.rotation.x, -body.rotation.y, -body.rotation.z, body.rotation.w};
+    const Vector w = rotate(back, body.spin);
+    const Vector l{w.x * (e.y * e.y + e.z * e.z) / 3, w.y * (e.z * e.z + e.x * e.x) / 3,
+                   w.z * (e.x * e.x + e.y * e.y) / 3};
+    return rotate(body.rotation, l);
+}
+
+} // namespace
+
+TEST_CASE("a body falls as Galileo says") {
+    World world(world_def(60, 8));
+    const lks_body_id body = add_body(world, ball_shape(0.1), fixed(0, 100, 0));
+    world.step(120);
+    const BodyState state = state_of(world, body);
+    CHECK(std::abs(state.velocity.y + 2 * g) < 1e-6);
+    // A substep's velocity acts for all of it: half a substep more than a parabola.
+    CHECK(std::abs(state.position.y - (100 - g * 2 * (2 + 1 / 480.0) / 2)) < 1e-6);
+}
+
+TEST_CASE("a free body keeps its angular momentum and gains no energy in ten minutes") {
+    // Half extents of a box, and of one that tumbles about its middle axis, as the T-handle does.
+    const Vector e{0.5, 0.1, 0.3};
+    for (const Vector& spin : {Vector{0.4, 3, 0.2}, Vector{0.01, 0.02, 5}, Vector{6, 0.01, 0.02}}) {
+        World world(world_def(60, 8));
+        REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
+        lks_body_def def = lks_default_body_def();
+        def.angular_velocity = fixed(spin.x, spin.y, spin.z);
+        const lks_body_id body = add_body(world, box_shape(e.x, e.y, e.z), {}, def);
+        const double energy = energy_of(world);
+        const Vector start = momentum(state_of(world, body), e);
+        double greatest = 0;
+        double turned = 1;
+        for (int second = 0; second < 600; ++second) {
+            world.step(60);
+            greatest = std::max(greatest, energy_of(world));
+            const Vector now = momentum(state_of(world, body), e);
+            CHECK((now - start).length() < 1e-3 * start.length());
+            turned = std::min(turned, state_of(world, body).spin.dot(spin) / spin.dot(spin));
+        }
+        INFO("energy, greatest over start: " << greatest / energy);
+        CHECK(greatest <= energy * (1 + 1e-9));
+        CHECK(energy_of(world) > energy * 0.999);
+    }
+}
+
+TEST_CASE("a ball bounces to the height that its restitution gives it") {
+    for (const double restitution : {0.0, 0.5, 0.9}) {
+        World world(world_def(60, 20));
+        add_ground(world);
+        lks_body_def def = lks_default_body_def();
+        def.restitution = fixed(restitution);
+        const lks_body_id ball = add_body(world, ball_shape(0.25), fixed(0, 2.25, 0), def);
+        double highest = 0;
+        bool bounced = false;
+        for (int tick = 0; tick < 150; ++tick) {
+            world.step();
+            const BodyState state = state_of(world, ball);
+            CHECK(state.position.y > 0.25 - 1e-3);
+            const bool rises = state.velocity.y > 0.01;
+            bounced = bounced || rises || (restitution == 0.0 && tick > 60);
+            if (bounced && highest >= 0) {
+                highest = std::max(highest, state.position.y - 0.25);
+            }
+            if (bounced && !rises && restitution > 0) {
+                break;
+            }
+        }
+        INFO("restitution " << restitution << ", height " << highest);
+        CHECK(std::abs(highest - 2 * restitution * restitution) < 0.02);
+    }
+}
+
+TEST_CASE("a box slides as far as friction lets it") {
+    for (const double friction : {0.2, 0.5}) {
+        World world(world_def(60, 8));
+        add_ground(world, friction);
+        lks_body_def def = lks_default_body_def();
+        def.static_friction = def.dynamic_friction = fixed(friction);
+        def.velocity = fixed(4, 0, 0);
+        const lks_body_id box = add_body(world, box_shape(0.5, 0.25, 0.5), fixed(0, 0.25, 0), def);
+        world.step(300);
+        const BodyState state = state_of(world, box);
+        const double expected = 16 / (2 * g * friction);
+        INFO("friction " << friction << ": " << state.position.x << " of " << expected);
+        CHECK(std::abs(state.position.x - expected) < 0.01 * expected);
+        CHECK(state.velocity.length() < 1e-5);
+    }
+}
+
+TEST_CASE("a box stays on a slope below the angle of friction, and slides above it as it should") {
+    const double friction = 0.5;
+    const double limit = std::atan(friction) * 180 / std::acos(-1.0);
+    for (const double degrees : {limit - 1, limit + 3}) {
+        World world(world_def(60, 8));
+        lks_rotation slope{};
+        REQUIRE(lks_rotation_from_axis_angle(0, 0, 1, degrees, &slope) == LKS_OK);
+        add_ground(world, friction, &slope);
+        const double angle = degrees * std::acos(-1.0) / 180;
+        lks_body_def def = lks_default_body_def();
+        def.static_friction = def.dynamic_friction = fixed(friction);
+        def.transform.rotation = slope;
+        const lks_vec3 place = fixed(-0.25 * std::sin(angle), 0.25 * std::cos(angle), 0);
+        const lks_body_id box = add_body(world, box_shape(0.5, 0.25, 0.5), place, def);
+        world.step(60);
+        const double moved = (state_of(world, box).position - metres(place)).length();
+        const double expected = degrees < limit ? 0 : (std::sin(angle) - friction * std::cos(angle)) * g / 2;
+        INFO(degrees << " degrees: " << moved << " of " << expected);
+        CHECK(std::abs(moved - expected) < 0.01 * expected + 1e-3);
+    }
+}
+
+TEST_CASE("a capsule rolls on at the speed it has") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    lks_body_def def = lks_default_body_def();
+    def.velocity = fixed(2, 0, 0);
+    def.angular_velocity = fixed(0, 0, -20);
+    REQUIRE(lks_rotation_from_axis_angle(1, 0, 0, 90, &def.transform.rotation) == LKS_OK);
+    const lks_body_id body = add_body(world, capsule_shape(0.1, 0.4), fixed(0, 0.1, 0), def);
+    const double energy = energy_of(world);
+    world.step(600);
+    CHECK(std::abs(energy_of(world) / energy - 1) < 1e-3);
+    CHECK(std::abs(state_of(world, body).position.x - 20) < 0.02);
+}
+
+TEST_CASE("ten boxes upon each other stand for a minute") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    lks_body_id boxes[10];
+    for (int i = 0; i < 10; ++i) {
+        boxes[i] = add_body(world, box_shape(0.5, 0.5, 0.5), fixed(0, 0.5 + i, 0));
+    }
+    world.step(3600);
+    const BodyState top = state_of(world, boxes[9]);
+    CHECK(std::abs(top.position.x) < 1e-3);
+    CHECK(std::abs(top.position.z) < 1e-3);
+    CHECK(top.position.y > 9.5 - 5e-3);
+    CHECK(energy_of(world) < 1e-3);
+    for (int i = 0; i < 10; ++i) {
+        CHECK(state_of(world, boxes[i]).position.y - (0.5 + i) > -5e-3);
+    }
+}
+
+TEST_CASE("fast bodies don't pass through a thin wall or each other") {
+    for (const double speed : {20.0, 60.0}) {
+        World world(world_def(60, 8));
+        REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
+        lks_collider_def wall = lks_default_collider_def();
+        wall.shape = LKS_SHAPE_BOX;
+        wall.half_extents = fixed(0.025, 5, 5);
+        wall.transform.position = fixed(3, 0, 0);
+        world.add(wall);
+        lks_body_def def = lks_default_body_def();
+        lks_body_id shots[20];
+        for (int i = 0; i < 20; ++i) {
+            def.velocity = fixed(speed, 0, 0);
+            def.angular_velocity = fixed(0, 0.3 * i, 1.0 * i);
+            shots[i] = add_body(world, capsule_shape(0.05, 0.1), fixed(-0.05 * i, 0.4 * i - 4, 0), def);
+        }
+        def.angular_velocity = {};
+        def.velocity = fixed(-speed, 0, 0);
+        const lks_body_id left = add_body(world, ball_shape(0.05), fixed(-3, 4.5, 2.0), def);
+        def.velocity = fixed(speed, 0, 0);
+        const lks_body_id right = add_body(world, ball_shape(0.05), fixed(-6.01, 4.5, 2.0), def);
+        world.step(60);
+        for (const lks_body_id shot : shots) {
+            CHECK(state_of(world, shot).position.x < 3);
+        }
+        CHECK(state_of(world, left).position.x > state_of(world, right).position.x);
+    }
+}
+
+TEST_CASE("an impulse changes velocity and spin by what it carries") {
+    World world;
+    const lks_body_id body = add_body(world, box_shape(0.5, 0.1, 0.3), fixed(1, 2, 3));
+    lks_fixed mass = 0;
+    REQUIRE(lks_body_mass(world, body, &mass) == LKS_OK);
+    CHECK(std::abs(metres(mass) - 120) < 1e-6);
+    REQUIRE(lks_body_apply_impulse(world, body, fixed(0, 240, 0), fixed(1.5, 2, 3)) == LKS_OK);
+    const BodyState state = state_of(world, body);
+    CHECK(std::abs(state.velocity.y - 2) < 1e-6);
+    CHECK(std::abs(state.spin.z - 240 * 0.5 / (120 * (0.25 + 0.01) / 3)) < 1e-4);
+    CHECK(std::abs(state.spin.x) < 1e-9);
+}
+
+TEST_CASE("a kinematic body carries what lies on it") {
+    World world(world_def(60, 8));
+    lks_body_def def = lks_default_body_def();
+    def.kind = LKS_BODY_KINEMATIC;
+    const lks_body_id cart = add_body(world, box_shape(1, 0.1, 1), {}, def);
+    const lks_body_id load = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(0, 0.3, 0));
+    lks_transform target{};
+    REQUIRE(lks_body_transform(world, cart, &target) == LKS_OK);
+    for (int tick = 0; tick < 120; ++tick) {
+        target.position.x += fixed(0.5 / 60 * std::min(tick, 30) / 30);
+        REQUIRE(lks_body_move_to(world, cart, target) == LKS_OK);
+        world.step();
+    }
+    CHECK(std::abs(state_of(world, load).position.x - metres(target.position.x)) < 2e-3);
+    CHECK(std::abs(state_of(world, load).velocity.x - 0.5) < 1e-3);
+}

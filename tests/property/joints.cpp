@@ -1,0 +1,212 @@
+// What joints hold, and what they leave free.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/bodies.h"
+
+using namespace support;
+
+namespace {
+
+constexpr double g = 9.81;
+const double pi = std::acos(-1.0);
+
+double error_of(const World& world, lks_joint_id joint) {
+    lks_fixed error = 0;
+    REQUIRE(lks_joint_error(world, joint, &error) == LKS_OK);
+    return metres(error);
+}
+
+struct Angles {
+    double swing, twist;
+};
+
+Angles angles_of(const World& world, lks_joint_id joint) {
+    lks_fixed swing = 0;
+    lks_fixed twist = 0;
+    REQUIRE(lks_joint_angles(world, joint, &swing, &twist) == LKS_OK);
+    return {metres(swing), metres(twist)};
+}
+
+lks_rotation about(double x, double y, double z, double degrees) {
+    lks_rotation rotation{};
+    REQUIRE(lks_rotation_from_axis_angle(x, y, z, degrees, &rotation) == LKS_OK);
+    return rotation;
+}
+
+} // namespace
+
+TEST_CASE("a pendulum has its period") {
+    World world(world_def(60, 20));
+    const lks_body_id anchor = add_anchor(world, {});
+    const double angle = 0.1;
+    lks_body_def def = lks_default_body_def();
+    def.transform.rotation = about(0, 0, 1, angle * 180 / pi);
+    const lks_body_id rod = add_body(world, box_shape(0.05, 0.5, 0.05),
+                                     fixed(0.5 * std::sin(angle), -0.5 * std::cos(angle), 0), def);
+    lks_joint_def joint = lks_default_joint_def();
+    joint.frame_b.position = fixed(0, 0.5, 0);
+    const lks_joint_id id = add_joint(world, joint, anchor, rod);
+    double first = 0, last = 0, before = 1;
+    int swings = 0;
+    for (int tick = 1; tick <= 1800; ++tick) {
+        world.step();
+        const double x = state_of(world, rod).position.x;
+        if (before < 0 && x >= 0) {
+            last = tick - x / (x - before);
+            first = swings == 0 ? last : first;
+            ++swings;
+        }
+        before = x;
+    }
+    const double inertia = (0.05 * 0.05 + 0.5 * 0.5) / 3 + 0.25;
+    const double expected = 2 * pi * std::sqrt(inertia / (g * 0.5)) * (1 + angle * angle / 16);
+    const double period = (last - first) / 60 / (swings - 1);
+    INFO(period << " s of " << expected);
+    CHECK(std::abs(period / expected - 1) < 1e-3);
+    CHECK(error_of(world, id) < 1e-6);
+    // At rest it would carry its weight; swinging a little it carries nearly that.
+    lks_vec3 force{};
+    REQUIRE(lks_joint_load(world, id, &force, nullptr) == LKS_OK);
+    CHECK(std::abs(metres(force.y) - 10 * g) < 2);
+}
+
+TEST_CASE("a hinge turns about its axis only, and between its limits") {
+    World world(world_def(60, 8));
+    const lks_body_id anchor = add_anchor(world, {});
+    const lks_body_id arm = add_body(world, box_shape(0.5, 0.05, 0.1), fixed(0.5, 0, 0));
+    lks_joint_def joint = lks_default_joint_def();
+    joint.kind = LKS_JOINT_HINGE;
+    joint.frame_b.position = fixed(-0.5, 0, 0);
+    joint.frame_a.rotation = joint.frame_b.rotation = about(1, 0, 0, 90); // about z
+    joint.twist_min = fixed(-45);
+    joint.twist_max = fixed(30);
+    const lks_joint_id id = add_joint(world, joint, anchor, arm);
+    double deepest = 0;
+    for (int tick = 0; tick < 300; ++tick) {
+        world.step();
+        const Angles angles = angles_of(world, id);
+        CHECK(angles.swing < 0.1);
+        CHECK(angles.twist > -50);
+        deepest = std::min(deepest, angles.twist);
+    }
+    CHECK(deepest < -44);
+    CHECK(std::abs(angles_of(world, id).twist + 45) < 0.5);
+    CHECK(error_of(world, id) < 1e-4);
+    // Turned up by force, it stops at the other limit.
+    REQUIRE(lks_world_set_gravity(world, fixed(0, 9.81, 0)) == LKS_OK);
+    world.step(300);
+    CHECK(std::abs(angles_of(world, id).twist - 30) < 0.5);
+}
+
+TEST_CASE("a ball joint's cone and twist hold a limb that is thrown about") {
+    World world(world_def(60, 8));
+    const lks_body_id anchor = add_anchor(world, {});
+    lks_body_def def = lks_default_body_def();
+    def.angular_velocity = fixed(25, 14, 18);
+    const lks_body_id limb = add_body(world, capsule_shape(0.05, 0.2), fixed(0, -0.25, 0), def);
+    lks_joint_def joint = lks_default_joint_def();
+    joint.frame_b.position = fixed(0, 0.25, 0);
+    joint.swing_limit = fixed(40);
+    joint.twist_min = fixed(-20);
+    joint.twist_max = fixed(35);
+    const lks_joint_id id = add_joint(world, joint, anchor, limb);
+    double swing = 0, twist = 0;
+    for (int tick = 0; tick < 600; ++tick) {
+        world.step();
+        const Angles angles = angles_of(world, id);
+        swing = std::max(swing, angles.swing);
+        twist = std::max({twist, angles.twist - 35, -20 - angles.twist});
+    }
+    INFO("swing " << swing << ", twist beyond its limits " << twist);
+    CHECK(swing > 35);
+    CHECK(swing < 45);
+    CHECK(twist < 5);
+}
+
+TEST_CASE("a fixed joint makes two bodies one") {
+    World world(world_def(60, 20));
+    const lks_body_id anchor = add_anchor(world, {});
+    const lks_body_id beam = add_body(world, box_shape(0.5, 0.1, 0.1, 200), fixed(0.6, 0, 0));
+    lks_joint_def joint = lks_default_joint_def();
+    joint.kind = LKS_JOINT_FIXED;
+    joint.frame_a.position = fixed(0.1, 0, 0);
+    joint.frame_b.position = fixed(-0.5, 0, 0);
+    const lks_joint_id id = add_joint(world, joint, anchor, beam);
+    world.step(600);
+    CHECK(angles_of(world, id).swing < 0.2);
+    CHECK(error_of(world, id) < 1e-4);
+    CHECK(std::abs(state_of(world, beam).position.y) < 5e-3);
+}
+
+TEST_CASE("a distance joint is a rope, a rod or a strut") {
+    World world(world_def(60, 20));
+    const lks_body_id anchor = add_anchor(world, {});
+    const lks_body_id ball = add_body(world, ball_shape(0.1), fixed(0.3, 0, 0));
+    lks_joint_def joint = lks_default_joint_def();
+    joint.kind = LKS_JOINT_DISTANCE;
+    joint.distance_max = fixed(1);
+    const lks_joint_id id = add_joint(world, joint, anchor, ball);
+    double furthest = 0;
+    for (int tick = 0; tick < 600; ++tick) {
+        world.step();
+        furthest = std::max(furthest, state_of(world, ball).position.length());
+    }
+    CHECK(furthest < 1.003);
+    CHECK(furthest > 0.999);
+    CHECK(error_of(world, id) < 2e-3);
+}
+
+TEST_CASE("a chain of ten stays together, at equal masses and at a hundred to one") {
+    struct Case {
+        double mass;
+        double worst;
+    };
+    for (const Case& expected : {Case{3, 5e-3}, Case{300, 3e-2}}) {
+        World world(world_def(60, 8));
+        lks_body_id last = add_anchor(world, {});
+        std::vector<lks_joint_id> joints;
+        for (int i = 0; i < 10; ++i) {
+            lks_body_def def = lks_default_body_def();
+            def.mass = fixed(i == 9 ? expected.mass : 3);
+            def.transform.rotation = about(0, 0, 1, 90);
+            const lks_body_id body =
+                add_body(world, capsule_shape(0.05, 0.15), fixed(0.2 + 0.4 * i, 0, 0), def);
+            lks_joint_def joint = lks_default_joint_def();
+            joint.frame_a.position = i == 0 ? lks_vec3{} : fixed(0, -0.2, 0);
+            joint.frame_b.position = fixed(0, 0.2, 0);
+            joints.push_back(add_joint(world, joint, last, body));
+            last = body;
+        }
+        double worst = 0;
+        for (int tick = 0; tick < 600; ++tick) {
+            world.step();
+            for (const lks_joint_id joint : joints) {
+                worst = std::max(worst, error_of(world, joint));
+            }
+        }
+        INFO("end of " << expected.mass << " kg: " << worst << " m");
+        CHECK(worst < expected.worst);
+    }
+}
+
+TEST_CASE("joint friction brings a turning body to rest as its torque says") {
+    World world(world_def(60, 8));
+    REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
+    const lks_body_id anchor = add_anchor(world, {});
+    lks_body_def def = lks_default_body_def();
+    def.angular_velocity = fixed(0, 5, 0);
+    const lks_body_id wheel = add_body(world, box_shape(0.5, 0.1, 0.5, 100), {}, def);
+    lks_joint_def joint = lks_default_joint_def();
+    joint.kind = LKS_JOINT_HINGE;
+    joint.friction = fixed(2);
+    add_joint(world, joint, anchor, wheel);
+    const double inertia = 20 * (0.25 + 0.25) / 3;
+    world.step(60);
+    CHECK(std::abs(state_of(world, wheel).spin.y - (5 - 2 / inertia)) < 0.01);
+    world.step(1200);
+    CHECK(std::abs(state_of(world, wheel).spin.y) < 1e-4);
+}

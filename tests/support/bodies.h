@@ -1,0 +1,93 @@
+// Bodies and joints in one line each.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include "support/handles.h"
+
+namespace support {
+
+inline lks_body_shape ball_shape(double radius, double density = 1000) {
+    lks_body_shape shape = lks_default_body_shape();
+    shape.radius = fixed(radius);
+    shape.density = fixed(density);
+    return shape;
+}
+
+inline lks_body_shape capsule_shape(double radius, double half_length, double density = 1000) {
+    lks_body_shape shape = ball_shape(radius, density);
+    shape.shape = LKS_SHAPE_CAPSULE;
+    shape.half_length = fixed(half_length);
+    return shape;
+}
+
+inline lks_body_shape box_shape(double x, double y, double z, double density = 1000) {
+    lks_body_shape shape = ball_shape(0.5, density);
+    shape.shape = LKS_SHAPE_BOX;
+    shape.half_extents = fixed(x, y, z);
+    return shape;
+}
+
+inline lks_body_id add_body(const World& world, const lks_body_shape& shape, const lks_vec3& position,
+                            lks_body_def def = lks_default_body_def()) {
+    def.shapes = &shape;
+    def.shape_count = 1;
+    def.transform.position = position;
+    lks_body_id id{};
+    const lks_result result = lks_world_add_body(world, &def, &id);
+    INFO(world.message());
+    REQUIRE(result == LKS_OK);
+    return id;
+}
+
+inline lks_body_id add_anchor(const World& world, const lks_vec3& position) {
+    lks_body_def def = lks_default_body_def();
+    def.kind = LKS_BODY_KINEMATIC;
+    def.filter.mask = 0;
+    return add_body(world, ball_shape(0.05), position, def);
+}
+
+inline lks_joint_id add_joint(const World& world, lks_joint_def def, lks_body_id a, lks_body_id b) {
+    def.body_a = a;
+    def.body_b = b;
+    lks_joint_id id{};
+    const lks_result result = lks_world_add_joint(world, &def, &id);
+    INFO(world.message());
+    REQUIRE(result == LKS_OK);
+    return id;
+}
+
+inline void add_ground(World& world, double friction = 0.5, const lks_rotation* rotation = nullptr) {
+    lks_collider_def def = lks_default_collider_def();
+    def.shape = LKS_SHAPE_PLANE;
+    def.static_friction = fixed(friction);
+    def.dynamic_friction = fixed(friction);
+    if (rotation != nullptr) {
+        def.transform.rotation = *rotation;
+    }
+    world.add(def);
+}
+
+struct BodyState {
+    Vector position;
+    Vector velocity;
+    Vector spin;
+    lks_rotation rotation;
+};
+
+inline BodyState state_of(const World& world, lks_body_id body) {
+    lks_transform transform{};
+    lks_vec3 velocity{};
+    lks_vec3 spin{};
+    REQUIRE(lks_body_transform(world, body, &transform) == LKS_OK);
+    REQUIRE(lks_body_velocity(world, body, &velocity, &spin) == LKS_OK);
+    return {metres(transform.position), metres(velocity), metres(spin), transform.rotation};
+}
+
+inline double energy_of(const World& world) {
+    lks_fixed energy = 0;
+    REQUIRE(lks_world_kinetic_energy(world, &energy) == LKS_OK);
+    return lks_fixed_to_double(energy);
+}
+
+} // namespace support
