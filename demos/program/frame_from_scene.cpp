@@ -2,6 +2,7 @@
 
 #include <lockstitch/lockstitch.h>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "golden/text.h"
@@ -65,6 +66,9 @@ public:
         }
         for (const ColliderLook& collider : scene_.colliders()) {
             good = good && add_collider(collider);
+        }
+        for (const lks_demo::BodyLook& body : scene_.bodies()) {
+            good = good && add_body(body);
         }
         frame_.legend.scene = scene_.info().name;
         frame_.legend.tick = "tick " + std::to_string(scene_.tick());
@@ -134,6 +138,28 @@ private:
             return false;
         }
         shape.matrix = glm::make_mat4(matrix);
+        return true;
+    }
+
+    bool add_body(const lks_demo::BodyLook& body) {
+        float matrix[16];
+        if (lks_body_write_matrix(scene_.world(), body.id, interpolation_, scene_.offset(), matrix) !=
+            LKS_OK) {
+            return false;
+        }
+        for (const lks_demo::BodyShapeLook& from : body.shapes) {
+            render::Shape& shape = frame_.shapes.emplace_back();
+            shape.kind = shape_kind(from.shape);
+            shape.radius = from.radius;
+            shape.half_length = from.half_length;
+            shape.half_extents = glm::make_vec3(from.half_extents);
+            shape.colour = colour(body.colour);
+            shape.marking = body.marking;
+            const glm::quat rotation(from.rotation[3], from.rotation[0], from.rotation[1], from.rotation[2]);
+            shape.matrix = glm::make_mat4(matrix) *
+                           glm::translate(glm::mat4(1.0f), glm::make_vec3(from.position)) *
+                           glm::mat4_cast(rotation);
+        }
         return true;
     }
 

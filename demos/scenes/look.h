@@ -72,6 +72,24 @@ struct ColliderLook {
     float marking = 0.0f; // 0 to 1: darker octants that make turning visible
 };
 
+// One shape of a body.
+struct BodyShapeLook {
+    lks_shape_kind shape = LKS_SHAPE_SPHERE;
+    float position[3] = {}; // in the body's frame
+    float rotation[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    float radius = 0.0f;
+    float half_length = 0.0f;
+    float half_extents[3] = {};
+};
+
+struct BodyLook {
+    lks_body_id id{};
+    std::string name;
+    std::vector<BodyShapeLook> shapes;
+    Rgb colour;
+    float marking = 0.0f;
+};
+
 // Relative to the scene's offset, metres.
 struct CameraLook {
     float eye[3] = {0.0f, 1.5f, 6.0f};

@@ -26,6 +26,14 @@ const std::vector<Entry>& entries() {
         {{"rope_wrap", "Ropes swing and fall around capsules", 420, 240, {70, 220}}, make_rope_wrap},
         {{"curtain_rings", "A pair of curtains on moving rings opens and closes", 600, 300, {60, 240}},
          make_curtain_rings},
+        {{"box_stack", "A tower and a pyramid of boxes, and a ball that rolls into it", 300, 150, {60, 110}},
+         make_box_stack},
+        {{"newtons_cradle", "Five balls on rods hand on an impact", 600, 150, {50, 120}},
+         make_newtons_cradle},
+        {{"ragdoll_stairs", "A mannequin tumbles down a flight of stairs", 300, 240, {50, 230}},
+         make_ragdoll_stairs},
+        {{"ragdoll_pile", "Thirty mannequins fall into a pit and pile up", 420, 120, {60, 120}},
+         make_ragdoll_pile},
     };
     return all;
 }

@@ -64,6 +64,7 @@ public:
     const std::vector<lks_asset*>& assets() const { return assets_; }
     const std::vector<ObjectLook>& objects() const { return objects_; }
     const std::vector<ColliderLook>& colliders() const { return colliders_; }
+    const std::vector<BodyLook>& bodies() const { return bodies_; }
     const CameraLook& camera() const { return camera_; }
 
     // Called before each tick's inputs, also between two ticks of one advance: there the world is as the tick
@@ -80,6 +81,10 @@ protected:
     // Parts of a scene; places are without the offset. False: refused, and error_ says why.
     bool add_ground(Rgb colour);
     bool add_collider(lks_collider_def def, const ColliderLook& look, lks_collider_id* id = nullptr);
+    bool add_body(const std::string& name, lks_body_def def, Rgb colour, lks_body_id* id = nullptr);
+    // Places are those of `def`; a colour for each bone. `ids` has room for them, or is null.
+    bool add_ragdoll(const std::string& name, lks_ragdoll_def def, const Rgb* colours,
+                     lks_body_id* ids = nullptr, lks_joint_id* joints = nullptr);
     bool create_cloth(lks_cloth_def def, const lks_asset*& asset);
     bool create_rope(lks_rope_def def, const lks_asset*& asset);
     bool add_object(const std::string& name, const lks_asset* asset, lks_object_def def);
@@ -99,6 +104,8 @@ protected:
 private:
     static void on_tick(void* user, lks_world* world, std::uint64_t tick);
     ObjectLook& look_of(ObjectKind kind);
+    void look_as_body(const std::string& name, lks_body_id id, const lks_body_def& def, double scale,
+                      Rgb colour);
 
     const SceneInfo& info_;
     SceneOptions options_;
@@ -106,6 +113,7 @@ private:
     std::vector<lks_asset*> assets_;
     std::vector<ObjectLook> objects_;
     std::vector<ColliderLook> colliders_;
+    std::vector<BodyLook> bodies_;
     lks_error refusal_{}; // of a call that has no world to tell it
     std::string error_;
 };

@@ -37,6 +37,66 @@ bool Scene::add_collider(lks_collider_def def, const ColliderLook& look, lks_col
     return true;
 }
 
+void Scene::look_as_body(const std::string& name, lks_body_id id, const lks_body_def& def, double scale,
+                         Rgb colour) {
+    const auto metres = [scale](lks_fixed value) {
+        return static_cast<float>(lks_fixed_to_double(value) * scale);
+    };
+    BodyLook look;
+    look.id = id;
+    look.name = name;
+    look.colour = colour;
+    for (std::uint32_t i = 0; i < def.shape_count; ++i) {
+        const lks_body_shape& from = def.shapes[i];
+        const lks_rotation& q = from.transform.rotation;
+        BodyShapeLook shape;
+        shape.shape = static_cast<lks_shape_kind>(from.shape);
+        const lks_vec3& p = from.transform.position;
+        const lks_vec3& e = from.half_extents;
+        for (int axis = 0; axis < 3; ++axis) {
+            shape.position[axis] = metres(axis == 0 ? p.x : axis == 1 ? p.y : p.z);
+            shape.half_extents[axis] = metres(axis == 0 ? e.x : axis == 1 ? e.y : e.z);
+        }
+        const std::int32_t parts[4] = {q.x, q.y, q.z, q.w};
+        for (int part = 0; part < 4; ++part) {
+            shape.rotation[part] = static_cast<float>(parts[part]) / static_cast<float>(LKS_ROTATION_ONE);
+        }
+        shape.radius = metres(from.radius);
+        shape.half_length = metres(from.half_length);
+        look.shapes.push_back(shape);
+    }
+    bodies_.push_back(look);
+}
+
+bool Scene::add_body(const std::string& name, lks_body_def def, Rgb colour, lks_body_id* id) {
+    def.transform.position = place(def.transform.position);
+    lks_body_id added{};
+    if (!accept(lks_world_add_body(world_, &def, &added))) {
+        return false;
+    }
+    look_as_body(name, added, def, 1.0, colour);
+    if (id != nullptr) {
+        *id = added;
+    }
+    return true;
+}
+
+bool Scene::add_ragdoll(const std::string& name, lks_ragdoll_def def, const Rgb* colours, lks_body_id* ids,
+                        lks_joint_id* joints) {
+    def.transform.position = place(def.transform.position);
+    std::vector<lks_body_id> added(def.bone_count);
+    if (!accept(lks_world_add_ragdoll(world_, &def, added.data(), joints))) {
+        return false;
+    }
+    for (std::uint32_t i = 0; i < def.bone_count; ++i) {
+        look_as_body(name, added[i], def.bones[i].body, lks_fixed_to_double(def.scale), colours[i]);
+        if (ids != nullptr) {
+            ids[i] = added[i];
+        }
+    }
+    return true;
+}
+
 bool Scene::create_cloth(lks_cloth_def def, const lks_asset*& asset) {
     def.allocator = options_.allocator;
     def.error = &refusal_;
