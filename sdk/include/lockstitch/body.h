@@ -57,7 +57,7 @@ typedef struct lks_body_def {
     lks_vec3 angular_velocity; /* rad/s in world axes, each axis within the spin limit */
     const lks_body_shape* shapes;
     uint32_t shape_count;       /* 1 .. LKS_MAX_BODY_SHAPES */
-    uint32_t reserved;          /* 0 */
+    uint32_t never_sleeps;      /* 1: it, and what it has to do with, stay awake */
     lks_fixed mass;             /* kg, 0.000001 .. 1000000; 0: as the densities say */
     lks_fixed gravity_factor;   /* on the world's gravity, -100 .. 100 */
     lks_fixed linear_damping;   /* 1/s, 0 .. 1000 */
@@ -101,6 +101,15 @@ LKS_API lks_result lks_body_apply_impulse(lks_world* world, lks_body_id body, lk
 /* Where a kinematic body is to be at the end of the next tick; it gets there evenly over the substeps and
  * rests there until the next call. At most 100 m and 90° a tick. */
 LKS_API lks_result lks_body_move_to(lks_world* world, lks_body_id body, lks_transform target);
+
+/* Sleep. What has been slower than 10 cm/s, or within a centimetre and two degrees of one place, for half a
+ * second, with all that it touches and is jointed to, is taken out of the simulation until something touches
+ * it or the game does something to it: a sleeping pile costs next to nothing. Adding, moving or removing a
+ * collider, and gravity, wake everybody. 1 while the body is awake; 0 for a kinematic body and a stale id. */
+LKS_API uint32_t lks_body_is_awake(const lks_world* world, lks_body_id body);
+/* With its island, from the next tick on. */
+LKS_API lks_result lks_body_wake(lks_world* world, lks_body_id body);
+LKS_API uint32_t lks_world_awake_body_count(const lks_world* world);
 
 /* kg; 0 for a kinematic body. */
 LKS_API lks_result lks_body_mass(const lks_world* world, lks_body_id body, lks_fixed* mass);

@@ -7,6 +7,7 @@
 #include "collide/saturation.h"
 #include "rigid/body_motion.h"
 #include "rigid/make_body.h"
+#include "rigid/sleep.h"
 
 using namespace lks;
 
@@ -28,20 +29,12 @@ bool reserve_slot(lks_world& world, std::uint32_t index) {
     return world.rigid.reserve(capacity, world.colliders.capacity());
 }
 
-// What pushed the body is forgotten.
-void forget_contacts(RigidScene& scene, std::uint32_t body) {
-    for (std::size_t i = scene.memories.size(); i-- > 0;) {
-        const ContactKey& key = scene.memories[i].key;
-        if (key.body_a == body || key.other == body) {
-            scene.memories.erase(i);
-        }
-    }
-}
-
 void forget_joints(RigidScene& scene, std::uint32_t body) {
     for (std::uint32_t i = 0; i < scene.joints.size(); ++i) {
         const JointDescription& joint = scene.joints[i].description;
         if (scene.joint_slots[i].used && (joint.body_a == body || joint.body_b == body)) {
+            wake(scene.bodies[joint.body_a]);
+            wake(scene.bodies[joint.body_b]);
             scene.free_joint(i);
         }
     }
@@ -124,7 +117,8 @@ lks_result lks_world_remove_body(lks_world* world, lks_body_id body) {
         return result;
     }
     RigidScene& scene = world->rigid;
-    forget_contacts(scene, body.index);
+    wake_neighbours(scene, body.index);
+    scene.forget_contacts(body.index);
     forget_joints(scene, body.index);
     scene.bodies[body.index] = Body{};
     scene.descriptions[body.index] = BodyDescription{};
@@ -171,7 +165,9 @@ lks_result lks_body_set_transform(lks_world* world, lks_body_id body, lks_transf
         return result;
     }
     RigidScene& scene = world->rigid;
-    forget_contacts(scene, body.index);
+    wake_neighbours(scene, body.index);
+    wake(scene.bodies[body.index]);
+    scene.forget_contacts(body.index);
     place_body(scene.bodies[body.index], scene.descriptions[body.index], to_vec3(transform.position),
                fixed::normalise(to_rotation(transform.rotation)));
     return LKS_OK;
@@ -207,6 +203,7 @@ lks_result lks_body_set_velocity(lks_world* world, lks_body_id body, lks_vec3 ve
                                                       << "The body with index " << body.index
                                                       << " is kinematic: it moves by lks_body_move_to only.");
     }
+    wake(found);
     found.velocity = to_vec3(velocity);
     found.angular_velocity = to_vec3(angular_velocity);
     return LKS_OK;
@@ -226,6 +223,7 @@ lks_result lks_body_apply_impulse(lks_world* world, lks_body_id body, lks_vec3 i
         return world->fail(LKS_ERROR_INVALID_ARGUMENT,
                            out_of_range("impulse", impulse, "N·s", LKS_FIXED(8388607)));
     }
+    wake(found);
     apply_impulse(found, to_vec3(impulse), lever);
     world->counters.speed_clamps += clamp_vector(found.velocity, body_speed_limit(world->rate)) ? 1u : 0u;
     world->counters.speed_clamps +=
@@ -256,6 +254,28 @@ lks_result lks_body_move_to(lks_world* world, lks_body_id body, lks_transform ta
     found.target_position = there.position;
     found.target_orientation = there.orientation;
     return LKS_OK;
+}
+
+uint32_t lks_body_is_awake(const lks_world* world, lks_body_id body) {
+    return world != nullptr && world->has_body(body) && world->rigid.bodies[body.index].is_awake() ? 1u : 0u;
+}
+
+lks_result lks_body_wake(lks_world* world, lks_body_id body) {
+    const lks_result result = require_body(world, body);
+    if (result == LKS_OK) {
+        wake(world->rigid.bodies[body.index]);
+    }
+    return result;
+}
+
+uint32_t lks_world_awake_body_count(const lks_world* world) {
+    std::uint32_t count = 0;
+    if (world != nullptr) {
+        for (const Body& body : world->rigid.bodies) {
+            count += body.is_awake() ? 1u : 0u;
+        }
+    }
+    return count;
 }
 
 lks_result lks_body_mass(const lks_world* world, lks_body_id body, lks_fixed* mass) {

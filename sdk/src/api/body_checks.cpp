@@ -102,10 +102,10 @@ lks_result check_body_transform(const lks_world& world, const lks_transform& tra
 }
 
 lks_result check_body_def(const lks_world& world, const lks_body_def& def) {
-    if (def.kind > LKS_BODY_KINEMATIC || def.reserved != 0) {
-        return world.fail(LKS_ERROR_INVALID_ARGUMENT,
-                          Sentence() << "The body's kind is " << def.kind << " and its reserved field "
-                                     << def.reserved << "; the kinds are 0 and 1, and reserved is 0.");
+    if (def.kind > LKS_BODY_KINEMATIC || def.never_sleeps > 1) {
+        return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "The body's kind is " << def.kind
+                                                                 << " and never_sleeps " << def.never_sleeps
+                                                                 << "; both are 0 or 1.");
     }
     if (const lks_result result = check_body_transform(world, def.transform); result != LKS_OK) {
         return result;

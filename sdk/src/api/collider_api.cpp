@@ -5,6 +5,7 @@
 
 #include "api/checks.h"
 #include "api/collider_checks.h"
+#include "rigid/sleep.h"
 
 using namespace lks;
 
@@ -120,6 +121,7 @@ lks_result lks_world_add_collider(lks_world* world, const lks_collider_def* def,
     ColliderSlot& slot = world->colliders[index];
     slot.collider = make_collider(*def);
     slot.used = true;
+    wake_all(world->rigid);
     *collider = {index, slot.generation};
     return LKS_OK;
 }
@@ -133,6 +135,8 @@ lks_result lks_world_remove_collider(lks_world* world, lks_collider_id collider)
     }
     ColliderSlot& slot = world->colliders[collider.index];
     slot.used = false;
+    wake_all(world->rigid);
+    world->rigid.forget_contacts(collider.index | other_is_collider);
     slot.collider = ColliderState{};
     slot.generation = slot.generation == UINT32_MAX ? 1 : slot.generation + 1;
     return LKS_OK;
@@ -163,6 +167,7 @@ lks_result lks_collider_set_transform(lks_world* world, lks_collider_id collider
     if (ColliderState* found = require_collider(world, collider, transform, result)) {
         place_collider(*found, to_vec3(transform.position),
                        fixed::normalise(to_rotation(transform.rotation)));
+        wake_all(world->rigid);
     }
     return result;
 }

@@ -6,6 +6,7 @@
 #include "api/joint_checks.h"
 #include "fixed/arc_tangent.h"
 #include "rigid/make_body.h"
+#include "rigid/sleep.h"
 
 using namespace lks;
 
@@ -113,6 +114,8 @@ lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_j
     const JointBodies bodies = bodies_of(*world, made);
     made.constants = make_joint_constants(made.description, bodies.a, bodies.b, world->rate);
     scene.joint_slots[index].used = true;
+    wake(scene.bodies[made.description.body_a]);
+    wake(scene.bodies[made.description.body_b]);
     scene.follow_joints();
     *joint = {index, scene.joint_slots[index].generation};
     return LKS_OK;
@@ -122,6 +125,9 @@ lks_result lks_world_remove_joint(lks_world* world, lks_joint_id joint) {
     if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
         return result;
     }
+    const JointDescription& description = world->rigid.joints[joint.index].description;
+    wake(world->rigid.bodies[description.body_a]);
+    wake(world->rigid.bodies[description.body_b]);
     world->rigid.free_joint(joint.index);
     world->rigid.follow_joints();
     return LKS_OK;

@@ -2,6 +2,7 @@
 #include <lockstitch/world.h>
 
 #include "api/checks.h"
+#include "rigid/sleep.h"
 #include "solver/tick.h"
 
 using namespace lks;
@@ -222,6 +223,9 @@ lks_result lks_world_set_gravity(lks_world* world, lks_vec3 gravity) {
     if (!within(gravity, gravity_limit)) {
         return world->fail(LKS_ERROR_INVALID_ARGUMENT,
                            out_of_range("gravity", gravity, "m/s²", gravity_limit));
+    }
+    if (!(world->gravity == to_vec3(gravity))) {
+        wake_all(world->rigid);
     }
     world->gravity = to_vec3(gravity);
     return LKS_OK;

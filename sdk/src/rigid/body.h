@@ -39,6 +39,7 @@ struct BodyDescription {
     std::int64_t gravity_factor;
     std::int64_t linear_damping;
     std::int64_t angular_damping;
+    std::uint32_t never_sleeps; // 0 or 1
 };
 
 // Where and how fast it is, and what every constraint on it needs.
@@ -58,11 +59,18 @@ struct Body {
     fixed::Vec3 target_position;
     Quaternion target_orientation;
 
+    // Sleep (rigid/sleep.h): where it has stayed, for how many ticks, and whether it is asleep.
+    fixed::Vec3 rest_position;
+    Quaternion rest_orientation;
+    std::uint32_t rest_ticks;
+    std::uint32_t asleep; // 0 or 1
+
     // For views: at the tick before.
     fixed::Vec3 previous_position;
     fixed::Rotation previous_rotation;
 
     // Of the tick and the substep at work.
+    bool touched; // by a contact that pushed at the end of the tick
     fixed::Vec3 tick_position;
     Quaternion tick_orientation;
     fixed::Vec3 start_position;
@@ -73,6 +81,9 @@ struct Body {
     SymmetricMatrix world_inverse; // inverse_inertia in world axes at the predicted pose
 
     bool is_dynamic() const { return inverse_mass.mantissa != 0; }
+    bool is_awake() const { return is_dynamic() && asleep == 0; }
+    // What constraints may move it by: nothing while it sleeps.
+    InverseMass effective_inverse_mass() const { return asleep != 0 ? InverseMass{0, 0} : inverse_mass; }
     // After `orientation` has changed.
     void follow_orientation() { rotation = fixed::to_matrix(narrow(orientation)); }
 };

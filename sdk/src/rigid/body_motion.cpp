@@ -58,6 +58,11 @@ std::int64_t greatest(const Vec3& v) {
     return std::max({size(v.x), size(v.y), size(v.z)});
 }
 
+// A milliradian a second changes nothing in an hour.
+bool is_slow(const Vec3& spin) {
+    return greatest(spin) < std::int64_t{1} << (world_fraction_bits - 10);
+}
+
 // I⁻¹(IΩ × hΩ/2), in body axes. Zero where it would be more than a quarter of Ω: half a substep is then too
 // long to follow the motion, and would add energy.
 Vec3 gyroscopic_change(const BodyDescription& body, const Vec3& spin, const MotionRate& rate) {
@@ -76,10 +81,12 @@ Vec3 gyroscopic_change(const BodyDescription& body, const Vec3& spin, const Moti
 Vec3 change_to_middle(const Body& body, const BodyDescription& description, const MotionRate& rate) {
     constexpr int most_iterations = 10;
     const Vec3 spin = fixed::rotate_transposed(body.rotation, body.angular_velocity);
+    // Nothing is left of it after an hour's substeps.
+    const std::int64_t enough = (greatest(spin) >> 36) + 2;
     Vec3 change{0, 0, 0};
     for (int i = 0; i < most_iterations; ++i) {
         const Vec3 next = gyroscopic_change(description, spin + change, rate);
-        const bool settled = greatest(next - change) <= 2;
+        const bool settled = greatest(next - change) <= enough;
         change = next;
         if (settled) {
             break;
@@ -128,7 +135,7 @@ void predict_body(Body& body, const BodyDescription& description, const BodyTick
     body.start_orientation = body.orientation;
     body.velocity = keep(body.velocity + tick.gravity_step, tick.linear_kept);
     body.angular_velocity = keep(body.angular_velocity, tick.angular_kept);
-    if (!description.properties.round) {
+    if (!description.properties.round && !is_slow(body.angular_velocity)) {
         body.angular_velocity = body.angular_velocity + change_to_middle(body, description, rate);
     }
     speed_clamps += clamp_vector(body.velocity, rate.speed_limit) ? 1u : 0u;
@@ -146,6 +153,16 @@ void predict_body(Body& body, const BodyDescription& description, const BodyTick
     body.predicted_orientation = body.orientation;
     body.world_inverse =
         description.properties.round ? body.inverse_inertia : rotated(body.inverse_inertia, body.rotation);
+}
+
+void aim_kinematic(Body& body, const MotionRate& rate, std::uint32_t substeps) {
+    const Vec3 way = velocity_between(body.position, body.target_position, rate);
+    const Vec3 turn = to_spin(half_turn_between(body.orientation, body.target_orientation), rate);
+    const auto n = static_cast<std::int64_t>(substeps);
+    body.velocity = {way.x / n, way.y / n, way.z / n};
+    body.angular_velocity = {turn.x / n, turn.y / n, turn.z / n};
+    clamp_vector(body.velocity, rate.speed_limit);
+    clamp_vector(body.angular_velocity, rate.spin_limit);
 }
 
 void place_kinematic(Body& body, std::uint32_t substep, std::uint32_t substeps, const MotionRate& rate) {
@@ -185,7 +202,7 @@ void finish_body(Body& body, const BodyDescription& description, const MotionRat
         body.angular_velocity = to_spin(half_turn_between(body.start_orientation, body.orientation), rate);
         speed_clamps += clamp_vector(body.angular_velocity, rate.spin_limit) ? 1u : 0u;
     }
-    if (!description.properties.round) {
+    if (!description.properties.round && !is_slow(body.angular_velocity)) {
         // From the middle of the substep to its end. Of what is left 2^-33 is lost, more than all roundings
         // could add.
         const Vec3 spin = fixed::rotate_transposed(body.rotation, body.angular_velocity);

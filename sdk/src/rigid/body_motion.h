@@ -36,6 +36,8 @@ BodyTick make_body_tick(const BodyDescription& description, const StepRate& rate
 // Dynamic bodies: start of a substep. Clamped speeds are counted.
 void predict_body(Body& body, const BodyDescription& description, const BodyTick& tick,
                   const MotionRate& rate, std::uint64_t& speed_clamps);
+// Kinematic bodies, at the start of a tick: as fast as it takes them to their target.
+void aim_kinematic(Body& body, const MotionRate& rate, std::uint32_t substeps);
 // Kinematic bodies: to where they are at the end of this substep, 1 .. substeps.
 void place_kinematic(Body& body, std::uint32_t substep, std::uint32_t substeps, const MotionRate& rate);
 // End of a substep.

@@ -63,16 +63,25 @@ Inverse make_row(const ContactBodies& bodies, const PairShares& shares, const Di
     return invert(weight);
 }
 
-// A push along the row's direction: b forward, a back.
-void push_apart(ContactBodies bodies, const RowSide& a, const RowSide& b, const Direction& direction,
-                std::int64_t p) {
-    if (p == 0) {
-        return;
+// Pushes along rows' directions, b forward and a back, applied together.
+class Pushes {
+public:
+    void add(const RowSide& a, const RowSide& b, const Direction& direction, std::int64_t p) {
+        if (p != 0) {
+            const Vec3 along = fixed::scale(direction, p);
+            add_push(a_, a, along, p, -1);
+            add_push(b_, b, along, p, 1);
+        }
     }
-    const Vec3 along = fixed::scale(direction, p);
-    push(bodies.a, a, along, p, -1);
-    push(bodies.b, b, along, p, 1);
-}
+    void apply_to(ContactBodies bodies) const {
+        apply(bodies.a, a_);
+        apply(bodies.b, b_);
+    }
+
+private:
+    Move a_;
+    Move b_;
+};
 
 std::int64_t grip(std::int64_t push, std::uint32_t friction) {
     return (std::min(push, greatest_gripping_push) * std::int64_t{friction}) >> 18;
@@ -136,11 +145,13 @@ void project_friction(Contact& contact, ContactPoint& point, ContactBodies bodie
         wanted[0] = fixed::scale_component(size.direction.x, sliding);
         wanted[1] = fixed::scale_component(size.direction.y, sliding);
     }
+    Pushes pushes;
     for (int i = 0; i < 2; ++i) {
         const std::int64_t more = wanted[i] - point.push.across[i];
         point.push.across[i] = wanted[i];
-        push_apart(bodies, point.across_a[i], point.across_b[i], contact.across[i], more);
+        pushes.add(point.across_a[i], point.across_b[i], contact.across[i], more);
     }
+    pushes.apply_to(bodies);
 }
 
 // Where the surfaces meet now, from each centre of mass in world axes. A round surface has turned away under
@@ -248,14 +259,16 @@ void warm_start(Contact& contact, ContactBodies bodies) {
                                                point.across_a[t], point.across_b[t]);
         }
     }
+    Pushes pushes;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         const ContactPoint& point = contact.points[i];
         if (point.active && point.push.normal != 0) {
-            push_apart(bodies, point.normal_a, point.normal_b, contact.normal, point.push.normal);
-            push_apart(bodies, point.across_a[0], point.across_b[0], contact.across[0], point.push.across[0]);
-            push_apart(bodies, point.across_a[1], point.across_b[1], contact.across[1], point.push.across[1]);
+            pushes.add(point.normal_a, point.normal_b, contact.normal, point.push.normal);
+            pushes.add(point.across_a[0], point.across_b[0], contact.across[0], point.push.across[0]);
+            pushes.add(point.across_a[1], point.across_b[1], contact.across[1], point.push.across[1]);
         }
     }
+    pushes.apply_to(bodies);
 }
 
 void project(Contact& contact, ContactBodies bodies) {
@@ -269,7 +282,11 @@ void project(Contact& contact, ContactBodies bodies) {
             std::max<std::int64_t>(point.push.normal - divide(gap, point.normal_inverse), 0);
         const std::int64_t more = wanted - point.push.normal;
         point.push.normal = wanted;
-        push_apart(bodies, point.normal_a, point.normal_b, contact.normal, more);
+        if (more != 0) {
+            Pushes pushes;
+            pushes.add(point.normal_a, point.normal_b, contact.normal, more);
+            pushes.apply_to(bodies);
+        }
         if (wanted != 0 || point.push.across[0] != 0 || point.push.across[1] != 0) {
             project_friction(contact, point, bodies);
         }
@@ -305,8 +322,9 @@ void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate
         const ContactPoint& point = contact.points[i];
         if (point.active && point.separation < -allowed_overlap) {
             const std::int64_t depth = std::min((-point.separation - allowed_overlap) >> 3, most);
-            push_apart(bodies, point.normal_a, point.normal_b, contact.normal,
-                       divide(depth, point.normal_inverse));
+            Pushes pushes;
+            pushes.add(point.normal_a, point.normal_b, contact.normal, divide(depth, point.normal_inverse));
+            pushes.apply_to(bodies);
             // Nobody does so behind it.
             for (Body* body : {&bodies.a, &bodies.b}) {
                 if (body->is_dynamic()) {

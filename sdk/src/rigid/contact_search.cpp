@@ -4,6 +4,7 @@
 
 #include "collide/plane_motion.h"
 #include "collide/saturation.h"
+#include "rigid/sleep.h"
 
 namespace lks {
 namespace {
@@ -83,12 +84,30 @@ std::int64_t reach(const Piece& piece) {
     return piece.radius + piece.half_length;
 }
 
+// Half the size along the axes of the world.
+Vec3 extent(const Piece& piece) {
+    const auto share = [](std::int32_t c, std::int64_t length) {
+        return fixed::scale_component(c < 0 ? -c : c, length) + 1;
+    };
+    const auto along = [&](int row) {
+        const std::int32_t(&c)[3] = piece.axes.m[row];
+        if (piece.kind == LKS_SHAPE_BOX) {
+            return share(c[0], piece.half_extents.x) + share(c[1], piece.half_extents.y) +
+                   share(c[2], piece.half_extents.z);
+        }
+        return piece.radius + (piece.half_length == 0 ? 0 : share(c[1], piece.half_length));
+    };
+    return {along(0), along(1), along(2)};
+}
+
 // How far any point of a body goes at most in a second; World, generous.
-std::int64_t greatest_speed(const Body& body, std::int64_t radius) {
+std::int64_t spin_speed(const Body& body, std::int64_t radius) {
     const std::int64_t spin = sum_of_magnitudes(body.angular_velocity);
-    const std::int64_t by_spin =
-        fixed::saturate_to_int64(fixed::multiply_signed(spin, radius) >> world_fraction_bits);
-    return sum_of_magnitudes(body.velocity) + by_spin;
+    return fixed::saturate_to_int64(fixed::multiply_signed(spin, radius) >> world_fraction_bits);
+}
+
+std::int64_t greatest_speed(const Body& body, std::int64_t radius) {
+    return sum_of_magnitudes(body.velocity) + spin_speed(body, radius);
 }
 
 // Further than `margin` along an axis of the world.
@@ -105,45 +124,71 @@ class Search {
 public:
     explicit Search(lks_world& world) : world_(world), scene_(world.rigid) {}
 
-    void run() {
+    // False: somebody was woken, and it has to be done again.
+    bool run() {
         find_pairs();
-        scene_.old_memories.swap(scene_.memories);
         scene_.contacts.clear();
         next_memory_ = 0;
+        woken_ = false;
         for (const std::uint64_t pair : scene_.pairs) {
             add_contacts(static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair));
         }
+        return !woken_;
     }
 
 private:
-    std::int64_t travel(const Body& body, std::int64_t radius) const {
-        return greatest_speed(body, radius) / static_cast<std::int64_t>(world_.rate.ticks_per_second);
+    std::int64_t per_tick(std::int64_t speed) const {
+        return speed / static_cast<std::int64_t>(world_.rate.ticks_per_second);
+    }
+
+    // Its shapes around its centre of mass, and how far its spin carries them.
+    void place_pieces() {
+        scene_.pieces.clear();
+        scene_.piece_starts.clear();
+        scene_.travels.clear();
+        for (std::uint32_t i = 0; i < scene_.bodies.size(); ++i) {
+            const Body& body = scene_.bodies[i];
+            const BodyDescription& description = scene_.descriptions[i];
+            scene_.piece_starts.push_reserved(static_cast<std::uint32_t>(scene_.pieces.size()));
+            for (std::uint32_t shape = 0; shape < description.shape_count; ++shape) {
+                scene_.pieces.push_reserved(piece_of_body(body, description.shapes[shape], body.position));
+            }
+            scene_.travels.push_reserved(per_tick(spin_speed(body, description.radius)));
+        }
+    }
+
+    const Piece& piece(std::uint32_t body, std::uint32_t shape) const {
+        return scene_.pieces[scene_.piece_starts[body] + shape];
     }
 
     // A body's box in this tick, with some room.
     Box box_of_body(std::uint32_t index) const {
         const Body& body = scene_.bodies[index];
-        const std::int64_t radius = scene_.descriptions[index].radius;
-        std::int64_t room = radius + near;
-        if (body.is_dynamic()) {
-            room += travel(body, radius);
-        }
-        const Vec3& p = body.position;
-        Box box{{p.x - room, p.y - room, p.z - room}, {p.x + room, p.y + room, p.z + room}};
-        if (!body.is_dynamic()) {
-            include(box, body.target_position, room);
+        const std::int64_t room = near + scene_.travels[index] + per_tick(sum_of_magnitudes(body.velocity));
+        Box box{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
+        for (std::uint32_t i = 0; i < scene_.descriptions[index].shape_count; ++i) {
+            const Vec3 reach = extent(piece(index, i)) + Vec3{room, room, room};
+            const Vec3& c = piece(index, i).centre;
+            include(box, body.position + c, reach);
+            if (!body.is_dynamic()) {
+                // However it turns on its way.
+                const std::int64_t radius = scene_.descriptions[index].radius + near;
+                include(box, body.position, {radius, radius, radius});
+                include(box, body.target_position, {radius, radius, radius});
+            }
         }
         return box;
     }
 
-    static void include(Box& box, const Vec3& p, std::int64_t room) {
-        box.low = {std::min(box.low.x, p.x - room), std::min(box.low.y, p.y - room),
-                   std::min(box.low.z, p.z - room)};
-        box.high = {std::max(box.high.x, p.x + room), std::max(box.high.y, p.y + room),
-                    std::max(box.high.z, p.z + room)};
+    static void include(Box& box, const Vec3& p, const Vec3& reach) {
+        box.low = {std::min(box.low.x, p.x - reach.x), std::min(box.low.y, p.y - reach.y),
+                   std::min(box.low.z, p.z - reach.z)};
+        box.high = {std::max(box.high.x, p.x + reach.x), std::max(box.high.y, p.y + reach.y),
+                    std::max(box.high.z, p.z + reach.z)};
     }
 
     void find_pairs() {
+        place_pieces();
         scene_.overlaps.clear();
         scene_.boxed.clear();
         scene_.pairs.clear();
@@ -178,7 +223,7 @@ private:
         const std::int64_t room = from_coordinate(bounding_radius(collider.shape, 0)) + 1;
         const Vec3& p = collider.position;
         Box box{{p.x - room, p.y - room, p.z - room}, {p.x + room, p.y + room, p.z + room}};
-        include(box, collider.target_position, room);
+        include(box, collider.target_position, {room, room, room});
         scene_.overlaps.add(box);
         scene_.boxed.push_reserved(index | other_is_collider);
     }
@@ -187,7 +232,8 @@ private:
         const ColliderState& collider = world_.colliders[collider_index].collider;
         const Body& body = scene_.bodies[index];
         const std::int64_t radius = scene_.descriptions[index].radius;
-        const std::int64_t room = radius + near + travel(body, radius);
+        const std::int64_t room =
+            radius + near + scene_.travels[index] + per_tick(sum_of_magnitudes(body.velocity));
         const auto below = [&](const fixed::Rotation& rotation, const Vec3& position) {
             const fixed::Int128 height = height_above_plane(plane_normal(fixed::to_matrix(rotation)),
                                                             position, body.position, Vec3{0, 0, 0});
@@ -212,12 +258,20 @@ private:
         scene_.pairs.push_reserved(std::uint64_t{a} << 32 | b);
     }
 
+    // Awake, or kinematic and on its way.
+    bool is_active(std::uint32_t body) const {
+        const Body& found = scene_.bodies[body];
+        return found.is_dynamic()
+                   ? found.asleep == 0
+                   : !(found.velocity == Vec3{0, 0, 0}) || !(found.angular_velocity == Vec3{0, 0, 0});
+    }
+
     bool may_collide(std::uint32_t a, std::uint32_t b) const {
-        const bool moves = scene_.bodies[a].is_dynamic();
         if (b >= other_is_collider) {
-            return moves;
+            return scene_.bodies[a].is_dynamic() && (is_active(a) || collider_of(b).moves());
         }
-        if (!moves && !scene_.bodies[b].is_dynamic()) {
+        if ((!scene_.bodies[a].is_dynamic() && !scene_.bodies[b].is_dynamic()) ||
+            (!is_active(a) && !is_active(b))) {
             return false;
         }
         if (std::binary_search(scene_.jointed.begin(), scene_.jointed.end(), std::uint64_t{a} << 32 | b)) {
@@ -238,38 +292,33 @@ private:
         const bool with_collider = other >= other_is_collider;
         const std::uint32_t shapes_b = with_collider ? 1 : scene_.descriptions[other].shape_count;
         // The motion of one against the other in this tick.
-        const std::int64_t radius_b = with_collider ? 0 : scene_.descriptions[other].radius;
-        Body relative = body_a;
-        relative.velocity = body_a.velocity - body_b.velocity;
-        const std::int64_t motion =
-            travel(relative, description_a.radius) + travel_by_spin(body_b, with_collider, other, radius_b);
+        const std::int64_t motion = travel_along(body_a, body_b) + scene_.travels[a] +
+                                    (with_collider ? collider_turns(body_b, other) : scene_.travels[other]);
+        const Vec3 between = body_b.position - body_a.position;
         for (std::uint32_t i = 0; i < description_a.shape_count; ++i) {
-            const Piece piece_a = piece_of_body(body_a, description_a.shapes[i], body_a.position);
             for (std::uint32_t j = 0; j < shapes_b; ++j) {
-                const Piece piece_b =
-                    with_collider
-                        ? piece_of_collider(body_b, collider_of(other), body_a.position)
-                        : piece_of_body(body_b, scene_.descriptions[other].shapes[j], body_a.position);
-                if (apart(piece_a, piece_b, motion + near)) {
-                    continue;
+                Piece piece_b = with_collider ? piece_of_collider(body_b, collider_of(other), body_a.position)
+                                              : piece(other, j);
+                if (!with_collider) {
+                    piece_b.centre = piece_b.centre + between;
                 }
-                add_contact({a, other, i * LKS_MAX_BODY_SHAPES + j}, piece_a, piece_b, motion);
+                if (!apart(piece(a, i), piece_b, motion + near)) {
+                    add_contact({a, other, i * LKS_MAX_BODY_SHAPES + j}, piece(a, i), piece_b, motion);
+                }
             }
         }
     }
 
-    // The rest of what b's motion is worth: its spin, and where a collider turns.
-    std::int64_t travel_by_spin(const Body& b, bool with_collider, std::uint32_t other,
-                                std::int64_t radius) const {
-        Body still = b;
-        still.velocity = {0, 0, 0};
-        std::int64_t lever = radius;
-        if (with_collider) {
-            const Shape& shape = collider_of(other).shape;
-            lever =
-                shape.kind == LKS_SHAPE_PLANE ? LKS_FIXED(64) : from_coordinate(bounding_radius(shape, 0));
+    // How far the points of a collider that turns go at most.
+    std::int64_t collider_turns(const Body& body, std::uint32_t other) const {
+        if (body.angular_velocity == Vec3{0, 0, 0} && !collider_of(other).rotates()) {
+            return 0;
         }
-        return travel(still, lever);
+        const Shape& shape = collider_of(other).shape;
+        const bool plane = shape.kind == LKS_SHAPE_PLANE;
+        const std::int64_t lever = plane ? LKS_FIXED(64) : from_coordinate(bounding_radius(shape, 0));
+        // A collider turns by a quarter at most in a tick.
+        return 2 * lever;
     }
 
     const ColliderState& collider_of(std::uint32_t other) const {
@@ -285,11 +334,10 @@ private:
     }
 
     void add_contact(const ContactKey& key, const Piece& a, const Piece& b, std::int64_t motion) {
-        while (next_memory_ < scene_.old_memories.size() && scene_.old_memories[next_memory_].key < key) {
+        while (next_memory_ < scene_.memories.size() && scene_.memories[next_memory_].key < key) {
             ++next_memory_;
         }
-        const bool known =
-            next_memory_ < scene_.old_memories.size() && scene_.old_memories[next_memory_].key == key;
+        const bool known = next_memory_ < scene_.memories.size() && scene_.memories[next_memory_].key == key;
         // One look a tick is enough where neither passes the other's middle in it.
         const bool fast = motion > fixed::saturating_add(thickness(a), thickness(b));
         Manifold manifold;
@@ -300,6 +348,9 @@ private:
                 return;
             }
         }
+        if (disturb_sleep(manifold, key)) {
+            return;
+        }
         if (scene_.contacts.size() == scene_.contacts.capacity()) {
             ++world_.counters.lost_contacts;
             return;
@@ -308,7 +359,8 @@ private:
         Contact& contact = scene_.contacts[scene_.contacts.size() - 1];
         const Body& body_b = other_body(scene_, key.other);
         contact.key = key;
-        contact.shares = pair_shares(scene_.bodies[key.body_a].inverse_mass, body_b.inverse_mass);
+        contact.shares =
+            pair_shares(scene_.bodies[key.body_a].effective_inverse_mass(), body_b.effective_inverse_mass());
         contact.radius_a = a.radius;
         contact.radius_b = b.radius;
         const Surface& own = scene_.descriptions[key.body_a].surface;
@@ -318,13 +370,32 @@ private:
         contact.restitution = std::max(own.restitution, other.restitution);
         contact.fast = fast;
         if (known) {
-            const ContactMemory& memory = scene_.old_memories[next_memory_];
+            const ContactMemory& memory = scene_.memories[next_memory_];
             contact.count = memory.count;
             for (std::uint32_t i = 0; i < memory.count; ++i) {
                 contact.points[i].push = memory.pushes[i];
             }
         }
         take_manifold(contact, manifold, scene_.bodies[key.body_a], body_b);
+    }
+
+    // Wakes a sleeping body that this one is about to touch. True: the contact is of no use (yet).
+    bool disturb_sleep(const Manifold& manifold, const ContactKey& key) {
+        Body& a = scene_.bodies[key.body_a];
+        Body& b = other_body(scene_, key.other);
+        if (a.asleep == 0 && b.asleep == 0) {
+            return false;
+        }
+        constexpr std::int64_t touching = (std::int64_t{1} << world_fraction_bits) / 1000;
+        const std::int64_t closing = per_tick(-fixed::dot(manifold.normal, b.velocity - a.velocity));
+        for (std::uint32_t i = 0; i < manifold.count; ++i) {
+            if (manifold.points[i].separation <= touching + std::max<std::int64_t>(closing, 0)) {
+                wake(a.asleep != 0 ? a : b);
+                woken_ = true;
+                return true;
+            }
+        }
+        return !a.is_awake() && !b.is_awake();
     }
 
     // Of the motion that the search allowed for, only what closes the gap counts.
@@ -352,6 +423,7 @@ private:
     lks_world& world_;
     RigidScene& scene_;
     std::size_t next_memory_ = 0;
+    bool woken_ = false;
 };
 
 } // namespace
@@ -363,6 +435,7 @@ Body& other_body(RigidScene& scene, std::uint32_t other) {
 
 void place_collider_bodies(lks_world& world) {
     RigidScene& scene = world.rigid;
+    const MotionRate rate(world.rate);
     scene.collider_bodies.clear();
     for (const ColliderSlot& slot : world.colliders) {
         Body body{};
@@ -377,13 +450,18 @@ void place_collider_bodies(lks_world& world) {
             body.tick_orientation = body.orientation;
             body.start_position = body.position;
             body.start_orientation = body.orientation;
+            if (slot.collider.moves()) {
+                aim_kinematic(body, rate, world.rate.substeps);
+            }
         }
         scene.collider_bodies.push_reserved(body);
     }
 }
 
 void find_contacts(lks_world& world) {
-    Search(world).run();
+    while (!Search(world).run()) {
+        wake_islands(world);
+    }
 }
 
 void find_points_again(const lks_world& world, Contact& contact) {

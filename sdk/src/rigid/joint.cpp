@@ -130,7 +130,13 @@ Vec3 scaled(const Vec3& v, int shift) {
     return {part(v.x), part(v.y), part(v.z)};
 }
 
-void push_apart(Joint& joint, Body& a, Body& b, const Vec3& p) {
+// Soft joints, distances, and those with rows for angles besides begin each substep anew, as XPBD has them: a
+// beam on a fixed joint sagged by 9° when its points alone carried their push on.
+bool keeps_push(const Joint& joint) {
+    return joint.description.kind == LKS_JOINT_BALL && joint.constants.softness == 0;
+}
+
+void push_apart(const Joint& joint, Body& a, Body& b, const Vec3& p) {
     push(a, joint.side_a, p, -1);
     push(b, joint.side_b, p, 1);
 }
@@ -141,7 +147,7 @@ constexpr std::int64_t greatest_step = std::int64_t{1} << (world_fraction_bits -
 
 // The points together, in all directions at once (XPBD eq. 18).
 void project_points(Joint& joint, Body& a, Body& b) {
-    Vec3 error = joint_offset(joint, a, b);
+    Vec3 error = joint_offset(joint, a, b) - joint.start;
     const std::int64_t softness = joint.constants.softness;
     if (softness != 0) {
         const auto part = [softness](std::int64_t c) {
@@ -207,46 +213,50 @@ void turn_apart(const Joint& joint, Body& a, Body& b, const Vec3& p) {
     turn(b, joint.constants.shares.b, shift(b), p, 1);
 }
 
-// An error vector, 30 fraction bits of radians or of sines: b is turned back against it.
-void project_turn(Joint& joint, Body& a, Body& b, const Vec3& error) {
+// b is turned back against an error of 30 fraction bits, radians or sines; the push that it took.
+Vec3 turn_back(const Joint& joint, Body& a, Body& b, const Vec3& error) {
     fixed::NormalisedVector way{};
     if (!fixed::normalise(error, way)) {
-        return;
+        return {0, 0, 0};
     }
     const std::int64_t angle = way.length * (std::int64_t{1} << (world_fraction_bits - 30));
-    const std::int64_t p = TurnRow(joint, a, b, way.direction).turn_by(-angle);
-    joint.turn = joint.turn + fixed::scale(way.direction, p);
+    return fixed::scale(way.direction, TurnRow(joint, a, b, way.direction).turn_by(-angle));
 }
 
-// A hinge's axes together.
-void project_axes(Joint& joint, Body& a, Body& b) {
+// A hinge's axes apart: a sine and its direction. Beyond a right angle: a right angle's worth; where they are
+// opposite, about any axis across.
+Vec3 axes_apart(const Joint& joint, const Body& a, const Body& b) {
     const Direction u = frame_axis(a, joint.description.frame_a);
     const Direction v = frame_axis(b, joint.description.frame_b);
-    Vec3 error = cross(u, v); // sine, 60 fraction bits
-    error = scaled(error, -30);
-    if (fixed::dot(u, v) < 0) {
-        // Beyond a right angle: a right angle's worth. Where they are opposite, about any axis across.
-        fixed::NormalisedVector way{};
-        const Direction aside = across_any(u);
-        if (!fixed::normalise(error, way)) {
-            fixed::normalise(Vec3{aside.x, aside.y, aside.z}, way);
-        }
-        error = {way.direction.x, way.direction.y, way.direction.z};
+    const Vec3 error = scaled(cross(u, v), -30);
+    if (fixed::dot(u, v) >= 0) {
+        return error;
     }
-    project_turn(joint, a, b, error);
+    fixed::NormalisedVector way{};
+    if (!fixed::normalise(error, way)) {
+        const Direction aside = across_any(u);
+        fixed::normalise(Vec3{aside.x, aside.y, aside.z}, way);
+    }
+    return {way.direction.x, way.direction.y, way.direction.z};
 }
 
-// A fixed joint's frames together.
-void project_frames(Joint& joint, Body& a, Body& b) {
+// A fixed joint's frames apart: twice the sine of half the angle.
+Vec3 frames_apart(const Joint& joint, const Body& a, const Body& b) {
     const fixed::Rotation q = relative_rotation(joint, a, b);
     const fixed::Matrix3 frame = fixed::to_matrix(joint.description.frame_a);
     const Direction in_a = fixed::rotate(frame, Direction{q.x, q.y, q.z});
-    const Direction error = fixed::rotate(a.rotation, in_a); // half the angle
-    project_turn(joint, a, b,
-                 {2 * std::int64_t{error.x}, 2 * std::int64_t{error.y}, 2 * std::int64_t{error.z}});
+    const Direction error = fixed::rotate(a.rotation, in_a);
+    return {2 * std::int64_t{error.x}, 2 * std::int64_t{error.y}, 2 * std::int64_t{error.z}};
 }
 
-void limit_swing(Joint& joint, Body& a, Body& b) {
+// What hinges and fixed joints don't let turn, 30 fraction bits.
+Vec3 turned_apart(const Joint& joint, const Body& a, const Body& b) {
+    return joint.description.kind == LKS_JOINT_HINGE   ? axes_apart(joint, a, b)
+           : joint.description.kind == LKS_JOINT_FIXED ? frames_apart(joint, a, b)
+                                                       : Vec3{0, 0, 0};
+}
+
+void limit_swing(const Joint& joint, Body& a, Body& b) {
     const Direction u = frame_axis(a, joint.description.frame_a);
     const Direction v = frame_axis(b, joint.description.frame_b);
     const std::int32_t cosine = fixed::dot(u, v);
@@ -254,34 +264,38 @@ void limit_swing(Joint& joint, Body& a, Body& b) {
         return;
     }
     fixed::NormalisedVector way{};
-    const Vec3 across = scaled(cross(u, v), -30);
-    if (!fixed::normalise(across, way)) {
+    if (!fixed::normalise(scaled(cross(u, v), -30), way)) {
         const Direction aside = across_any(u);
         fixed::normalise(Vec3{aside.x, aside.y, aside.z}, way);
         way.length = 0;
     }
-    const std::int64_t angle = fixed::angle_of(way.length, cosine);
-    if (angle > joint.constants.swing_limit) {
-        TurnRow(joint, a, b, way.direction).turn_by(joint.constants.swing_limit - angle);
+    const std::int64_t swing = fixed::angle_of(way.length, cosine);
+    if (swing > joint.constants.swing_limit) {
+        TurnRow(joint, a, b, way.direction).turn_by(joint.constants.swing_limit - swing);
     }
 }
 
-// Half the twist is the angle of (q.w, q.y).
-void limit_twist(Joint& joint, Body& a, Body& b) {
+// The twist where it is beyond a limit; else anything between them. Half the twist is the angle of (q.w,
+// q.y).
+std::int64_t twist_beyond(const Joint& joint, const Body& a, const Body& b) {
     const fixed::Rotation q = relative_rotation(joint, a, b);
     const JointConstants& c = joint.constants;
     // Where the swing is a half turn there is no twist.
     if (std::int64_t{q.y} * q.y + std::int64_t{q.w} * q.w < std::int64_t{1} << 50) {
-        return;
+        return c.twist_min;
     }
     // sin(twist/2 − limit/2), times what is left of the swing.
     const std::int64_t above = std::int64_t{q.y} * c.half_max.cosine - std::int64_t{q.w} * c.half_max.sine;
     const std::int64_t below = std::int64_t{q.w} * c.half_min.sine - std::int64_t{q.y} * c.half_min.cosine;
-    if (above <= 0 && below <= 0) {
+    return above <= 0 && below <= 0 ? c.twist_min : 2 * fixed::angle_of(q.y, q.w);
+}
+
+void limit_twist(const Joint& joint, Body& a, Body& b) {
+    const std::int64_t twist = twist_beyond(joint, a, b);
+    const std::int64_t wanted = std::clamp(twist, joint.constants.twist_min, joint.constants.twist_max);
+    if (wanted == twist) {
         return;
     }
-    const std::int64_t twist = 2 * fixed::angle_of(q.y, q.w);
-    const std::int64_t wanted = std::clamp(twist, c.twist_min, c.twist_max);
     // About the middle of both axes.
     const Direction u = frame_axis(a, joint.description.frame_a);
     const Direction v = frame_axis(b, joint.description.frame_b);
@@ -369,25 +383,47 @@ JointConstants make_joint_constants(const JointDescription& d, const Body& a, co
 }
 
 void begin_substep(Joint& joint, const Body& a, const Body& b) {
+    joint.start = joint_offset(joint, a, b);
+}
+
+void warm_start(Joint& joint, Body& a, Body& b) {
     const JointDescription& d = joint.description;
-    joint.push = {0, 0, 0};
     joint.turn = {0, 0, 0};
     joint.grip = {0, 0, 0};
+    if (!keeps_push(joint)) {
+        joint.push = {0, 0, 0};
+        joint.start = {0, 0, 0};
+    }
     if (d.kind != LKS_JOINT_DISTANCE) {
         const std::int64_t softness = joint.constants.softness;
         std::int64_t k[6] = {softness, 0, 0, softness, 0, softness};
         joint.side_a = block_side(a, joint.constants.shares.a, fixed::rotate(a.rotation, d.point_a), k);
         joint.side_b = block_side(b, joint.constants.shares.b, fixed::rotate(b.rotation, d.point_b), k);
         invert_block(k, joint.inverse, joint.inverse_shift);
+        push_apart(joint, a, b, joint.push);
     }
 }
 
-void project(Joint& joint, Body& a, Body& b) {
-    rub(joint, a, b);
-    if (joint.description.kind == LKS_JOINT_HINGE) {
-        project_axes(joint, a, b);
-    } else if (joint.description.kind == LKS_JOINT_FIXED) {
-        project_frames(joint, a, b);
+void undo_error(const Joint& joint, Body& a, Body& b) {
+    if (keeps_push(joint)) {
+        Vec3 error = joint_offset(joint, a, b);
+        clamp_vector(error, greatest_step);
+        push_apart(joint, a, b, -scaled(multiply(joint.inverse, error), joint.inverse_shift));
+    }
+    // Nobody does so behind it.
+    for (Body* body : {&a, &b}) {
+        if (body->is_dynamic()) {
+            body->orientation = normalise(body->orientation);
+        }
+    }
+}
+
+void project(Joint& joint, Body& a, Body& b, bool forward) {
+    if (forward) {
+        rub(joint, a, b);
+    }
+    if (joint.description.kind == LKS_JOINT_HINGE || joint.description.kind == LKS_JOINT_FIXED) {
+        joint.turn = joint.turn + turn_back(joint, a, b, turned_apart(joint, a, b));
     }
     if (joint.constants.swing_limited) {
         limit_swing(joint, a, b);

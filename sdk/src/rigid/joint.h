@@ -3,6 +3,12 @@
 // The points are brought together by a block solve: K·p = −C with the 3×3 matrix K = Σ wᵢ(1 − r̂ᵢ Ĵᵢ r̂ᵢ) of
 // rigid/pair.h. What turns (a hinge's and a fixed joint's axes, limits, friction) is a row each, about the
 // axis of its own error.
+//
+// Of a ball joint's points, as of contacts, the motion within a substep is constrained, beginning with the
+// push of the one before; what is left of the error is undone at its end without giving speed. (Where the
+// whole error is corrected with speed, as XPBD has it, pushes can't be carried on: chains gained energy.)
+// What turns is corrected as XPBD has it: without speed limits were exceeded by 30° in a pile, where they are
+// by 8°.
 #pragma once
 
 #include <lockstitch/joint.h>
@@ -61,7 +67,8 @@ struct Joint {
     fixed::Vec3 turn; // of b against a, an angle
 
     // Of the substep.
-    fixed::Vec3 grip; // what friction turned
+    fixed::Vec3 start; // how far the points were apart at its beginning
+    fixed::Vec3 grip;  // what friction turned
     BlockSide side_a;
     BlockSide side_b;
     SymmetricMatrix inverse; // K⁻¹ = inverse · 2^inverse_shift
@@ -71,10 +78,15 @@ struct Joint {
 JointConstants make_joint_constants(const JointDescription& description, const Body& a, const Body& b,
                                     const StepRate& rate);
 
-// Once the bodies are predicted: K, and multipliers from zero, as XPBD has them. (Beginning with those of the
-// substep before, as contacts do, made chains gain energy: what is left of an error is corrected with speed.)
+// Before the bodies are predicted.
 void begin_substep(Joint& joint, const Body& a, const Body& b);
-void project(Joint& joint, Body& a, Body& b);
+// Once they are: K, and the pushes of the substep before.
+void warm_start(Joint& joint, Body& a, Body& b);
+// Friction takes part in forward sweeps only.
+void project(Joint& joint, Body& a, Body& b, bool forward);
+
+// Once velocities are known: what is left of the points' error, without giving speed.
+void undo_error(const Joint& joint, Body& a, Body& b);
 
 // How far the points are apart in world axes, b less a.
 fixed::Vec3 joint_offset(const Joint& joint, const Body& a, const Body& b);

@@ -83,6 +83,7 @@ BodyDescription describe_body(const lks_body_def& def) {
     out.gravity_factor = def.gravity_factor;
     out.linear_damping = def.linear_damping;
     out.angular_damping = def.angular_damping;
+    out.never_sleeps = def.never_sleeps;
     return out;
 }
 
@@ -114,6 +115,7 @@ lks_body_def define_body(const BodyDescription& description, lks_body_shape* sha
     def.dynamic_friction = description.surface.dynamic_friction;
     def.restitution = description.surface.restitution;
     def.filter = description.filter;
+    def.never_sleeps = description.never_sleeps;
     return def;
 }
 
@@ -132,6 +134,8 @@ void place_body(Body& body, const BodyDescription& description, const Vec3& posi
     body.position = position + fixed::rotate(body.rotation, description.centre);
     body.target_position = body.position;
     body.target_orientation = body.orientation;
+    body.rest_position = body.position;
+    body.rest_orientation = body.orientation;
     body.previous_position = body.position;
     body.previous_rotation = narrow(body.orientation);
 }

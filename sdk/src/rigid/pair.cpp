@@ -243,13 +243,27 @@ void accelerate(Body& body, const RowSide& side, const Direction& normal, std::i
         body.angular_velocity + Vec3{part(side.turn.x), part(side.turn.y), part(side.turn.z)};
 }
 
-void push(Body& body, const RowSide& side, const Vec3& p_normal, std::int64_t p, int sign) {
+void add_push(Move& move, const RowSide& side, const Vec3& p_normal, std::int64_t p, int sign) {
     if (side.share == 0) {
         return;
     }
-    const auto part = [&](std::int64_t c) { return sign * fixed::scale_component(side.share, c); };
-    body.position = body.position + Vec3{part(p_normal.x), part(p_normal.y), part(p_normal.z)};
-    turn(body, side, p, sign);
+    const std::int64_t own = sign * fixed::scale_component(side.share, p);
+    const int shift = side.turn_shift + half_turn_bits - world_fraction_bits;
+    const auto moved = [&](std::int64_t c) { return sign * fixed::scale_component(side.share, c); };
+    const auto turned = [&](std::int32_t c) { return shifted(fixed::scale_component(c, own), shift); };
+    move.shift = move.shift + Vec3{moved(p_normal.x), moved(p_normal.y), moved(p_normal.z)};
+    move.half_turn = move.half_turn + Vec3{turned(side.turn.x), turned(side.turn.y), turned(side.turn.z)};
+}
+
+void apply(Body& body, const Move& move) {
+    body.position = body.position + move.shift;
+    turn_body(body, move.half_turn);
+}
+
+void push(Body& body, const RowSide& side, const Vec3& p_normal, std::int64_t p, int sign) {
+    Move move;
+    add_push(move, side, p_normal, p, sign);
+    apply(body, move);
 }
 
 } // namespace lks

@@ -67,7 +67,16 @@ void push(Body& body, const BlockSide& side, const fixed::Vec3& p, int sign);
 // By a turning push (World): Δθ = share · Ĵ · p · 2^shift.
 void turn(Body& body, std::int32_t share, int shift, const fixed::Vec3& p, int sign);
 
-// Moves a body by a push p (World) along the row's normal; `sign` is 1 or -1.
+// What several rows at once do to a body: added up, and then applied together.
+struct Move {
+    fixed::Vec3 shift{0, 0, 0};     // World
+    fixed::Vec3 half_turn{0, 0, 0}; // 33 fraction bits
+};
+
+// By a push p (World) along the row's normal, p_normal; `sign` is 1 or -1.
+void add_push(Move& move, const RowSide& side, const fixed::Vec3& p_normal, std::int64_t p, int sign);
+void apply(Body& body, const Move& move);
+// Moves a body at once.
 void push(Body& body, const RowSide& side, const fixed::Vec3& p_normal, std::int64_t p, int sign);
 // Turns it only.
 void turn(Body& body, const RowSide& side, std::int64_t p, int sign);

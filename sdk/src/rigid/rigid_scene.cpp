@@ -7,8 +7,9 @@ namespace lks {
 RigidScene::RigidScene(const lks_allocator& allocator)
     : body_slots(allocator), bodies(allocator), descriptions(allocator), joint_slots(allocator),
       joints(allocator), memories(allocator), jointed(allocator), ticks(allocator),
-      collider_bodies(allocator), overlaps(allocator), boxed(allocator), pairs(allocator),
-      contacts(allocator), old_memories(allocator), loaded_kinds(allocator) {}
+      collider_bodies(allocator), pieces(allocator), piece_starts(allocator), travels(allocator),
+      overlaps(allocator), boxed(allocator), pairs(allocator), contacts(allocator), next_memories(allocator),
+      islands(allocator), island_rests(allocator), loaded_kinds(allocator) {}
 
 bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
     if (body_count == 0) {
@@ -17,14 +18,28 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
     const std::size_t boxes = body_count + collider_count;
     return body_slots.reserve(body_count) && bodies.reserve(body_count) && descriptions.reserve(body_count) &&
            ticks.reserve(body_count) && collider_bodies.reserve(collider_count) &&
-           overlaps.reserve(static_cast<std::uint32_t>(boxes)) && boxed.reserve(boxes) &&
-           pairs.reserve(pair_capacity(body_count)) && contacts.reserve(contact_capacity(body_count)) &&
-           memories.reserve(contact_capacity(body_count)) &&
-           old_memories.reserve(contact_capacity(body_count)) && loaded_kinds.reserve(body_count);
+           pieces.reserve(body_count * LKS_MAX_BODY_SHAPES) && piece_starts.reserve(body_count) &&
+           travels.reserve(body_count) && overlaps.reserve(static_cast<std::uint32_t>(boxes)) &&
+           boxed.reserve(boxes) && pairs.reserve(pair_capacity(body_count)) &&
+           contacts.reserve(contact_capacity(body_count)) && memories.reserve(contact_capacity(body_count)) &&
+           next_memories.reserve(contact_capacity(body_count)) && loaded_kinds.reserve(body_count) &&
+           islands.reserve(body_count) && island_rests.reserve(body_count);
 }
 
 bool RigidScene::reserve_joints(std::size_t count) {
     return joint_slots.reserve(count) && joints.reserve(count) && jointed.reserve(count);
+}
+
+void RigidScene::forget_contacts(std::uint32_t other) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < memories.size(); ++i) {
+        if (memories[i].key.body_a != other && memories[i].key.other != other) {
+            memories[kept++] = memories[i];
+        }
+    }
+    while (memories.size() > kept) {
+        memories.erase(memories.size() - 1);
+    }
 }
 
 void RigidScene::free_joint(std::uint32_t index) {

@@ -47,19 +47,26 @@ struct RigidScene {
     Array<std::uint64_t> jointed;
 
     // Of a tick.
-    Array<BodyTick> ticks;       // by body
-    Array<Body> collider_bodies; // colliders as bodies of infinite mass, by slot
+    Array<BodyTick> ticks;             // by body
+    Array<Body> collider_bodies;       // colliders as bodies of infinite mass, by slot
+    Array<Piece> pieces;               // of all bodies, around their centres of mass
+    Array<std::uint32_t> piece_starts; // by body, into pieces
+    Array<std::int64_t> travels;       // by body: how far any point of it goes in a tick at most, by its spin
     Overlaps overlaps;
     Array<std::uint32_t> boxed; // by box: body, or collider | other_is_collider
     Array<std::uint64_t> pairs; // body a << 32 | other, ascending
     Array<Contact> contacts;
-    Array<ContactMemory> old_memories;
+    Array<ContactMemory> next_memories;
+    Array<std::uint32_t> islands;      // by body: towards the least index in its island
+    Array<std::uint32_t> island_rests; // by body
     Array<std::uint8_t>
         loaded_kinds; // scratch of a load: 1 + an lks_body_kind by body, 0 where there is none
 
     // Room for everything that a tick with so many slots may need. False: no memory.
     [[nodiscard]] bool reserve(std::size_t body_count, std::size_t collider_count);
     [[nodiscard]] bool reserve_joints(std::size_t count);
+    // What has pushed a body, or a collider | other_is_collider.
+    void forget_contacts(std::uint32_t other);
     void free_joint(std::uint32_t index);
     // After joints came or went.
     void follow_joints();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rigid/contact_search.h"
+#include "rigid/sleep.h"
 #include "solver/world.h"
 
 namespace lks {
@@ -20,6 +21,10 @@ public:
 
     void run() {
         begin();
+        wake_islands(world_);
+        if (!anything_moves()) {
+            return;
+        }
         find_contacts(world_);
         any_restitution_ = false;
         for (const Contact& contact : scene_.contacts) {
@@ -41,11 +46,33 @@ private:
     Body& body_a(const Joint& joint) { return scene_.bodies[joint.description.body_a]; }
     Body& body_b(const Joint& joint) { return scene_.bodies[joint.description.body_b]; }
 
-    void project_joint(std::size_t index) {
-        if (scene_.joint_slots[index].used) {
+    bool is_at_work(std::size_t joint) const {
+        const JointDescription& d = scene_.joints[joint].description;
+        return scene_.joint_slots[joint].used &&
+               (scene_.bodies[d.body_a].is_awake() || scene_.bodies[d.body_b].is_awake());
+    }
+
+    void project_joint(std::size_t index, bool forward) {
+        if (is_at_work(index)) {
             Joint& joint = scene_.joints[index];
-            project(joint, body_a(joint), body_b(joint));
+            project(joint, body_a(joint), body_b(joint), forward);
         }
+    }
+
+    // Nobody is awake, and nothing is on its way to wake anybody.
+    bool anything_moves() const {
+        for (const Body& body : scene_.bodies) {
+            if (body.is_awake() || (!body.is_dynamic() && !(body.velocity == fixed::Vec3{0, 0, 0} &&
+                                                            body.angular_velocity == fixed::Vec3{0, 0, 0}))) {
+                return true;
+            }
+        }
+        for (const ColliderSlot& slot : world_.colliders) {
+            if (slot.used && slot.collider.moves()) {
+                return true;
+            }
+        }
+        return false;
     }
 
     void begin() {
@@ -59,8 +86,14 @@ private:
             body.previous_rotation = narrow(body.orientation);
             body.tick_position = body.position;
             body.tick_orientation = body.orientation;
+            if (body.asleep != 0) {
+                continue;
+            }
             body.follow_orientation();
             body.world_inverse = rotated(body.inverse_inertia, body.rotation);
+            if (!body.is_dynamic()) {
+                aim_kinematic(body, rate_, world_.rate.substeps);
+            }
         }
     }
 
@@ -72,12 +105,18 @@ private:
             const ContactBodies bodies = bodies_of(contact);
             begin_substep(contact, bodies.a, bodies.b);
         }
+        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+            if (is_at_work(i)) {
+                Joint& joint = scene_.joints[i];
+                lks::begin_substep(joint, body_a(joint), body_b(joint));
+            }
+        }
         strike_all();
         predict(substep);
         for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-            if (scene_.joint_slots[i].used) {
+            if (is_at_work(i)) {
                 Joint& joint = scene_.joints[i];
-                lks::begin_substep(joint, body_a(joint), body_b(joint));
+                lks::warm_start(joint, body_a(joint), body_b(joint));
             }
         }
         for (Contact& contact : scene_.contacts) {
@@ -86,7 +125,7 @@ private:
         for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
             // Forward and back: a sweep in one direction only makes tall stacks sway.
             for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-                project_joint(i);
+                project_joint(i, true);
             }
             for (Contact& contact : scene_.contacts) {
                 project(contact, bodies_of(contact));
@@ -95,16 +134,21 @@ private:
                 project(scene_.contacts[i], bodies_of(scene_.contacts[i]));
             }
             for (std::size_t i = scene_.joints.size(); i-- > 0;) {
-                project_joint(i);
+                project_joint(i, false);
             }
         }
         for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-            if (used(i) && scene_.bodies[i].is_dynamic()) {
+            if (used(i) && scene_.bodies[i].is_awake()) {
                 finish_body(scene_.bodies[i], scene_.descriptions[i], rate_, world_.counters.speed_clamps);
             }
         }
         for (const Contact& contact : scene_.contacts) {
             restore_speed(contact, bodies_of(contact), least_approach_);
+        }
+        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+            if (is_at_work(i)) {
+                undo_error(scene_.joints[i], body_a(scene_.joints[i]), body_b(scene_.joints[i]));
+            }
         }
         for (const Contact& contact : scene_.contacts) {
             undo_overlap(contact, bodies_of(contact), rate_);
@@ -129,7 +173,7 @@ private:
 
     void predict(std::uint32_t substep) {
         for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-            if (!used(i)) {
+            if (!used(i) || scene_.bodies[i].asleep != 0) {
                 continue;
             }
             Body& body = scene_.bodies[i];
@@ -148,14 +192,47 @@ private:
     }
 
     void finish() {
-        scene_.memories.clear();
-        for (const Contact& contact : scene_.contacts) {
-            remember(contact);
-        }
+        remember_contacts();
         for (Body& body : scene_.bodies) {
             if (!body.is_dynamic()) {
                 body.target_orientation = body.orientation;
             }
+        }
+        fall_asleep(world_);
+    }
+
+    // What pushed in this tick, and what holds sleeping bodies, in the order of keys.
+    void remember_contacts() {
+        scene_.next_memories.clear();
+        std::size_t old = 0;
+        for (const Contact& contact : scene_.contacts) {
+            old = keep_sleeping(old, &contact.key);
+            remember(contact);
+        }
+        keep_sleeping(old, nullptr);
+        scene_.memories.swap(scene_.next_memories);
+    }
+
+    // Those before `end`, or all; the first one that was not looked at.
+    std::size_t keep_sleeping(std::size_t old, const ContactKey* end) {
+        for (; old < scene_.memories.size() && (end == nullptr || scene_.memories[old].key < *end); ++old) {
+            const ContactKey& key = scene_.memories[old].key;
+            const bool awake = scene_.bodies[key.body_a].is_awake() ||
+                               (key.other < other_is_collider && scene_.bodies[key.other].is_awake());
+            if (!awake) {
+                add_memory(scene_.memories[old]);
+            }
+        }
+        // The contact's own is replaced.
+        return end != nullptr && old < scene_.memories.size() && scene_.memories[old].key == *end ? old + 1
+                                                                                                  : old;
+    }
+
+    void add_memory(const ContactMemory& memory) {
+        if (scene_.next_memories.size() < scene_.next_memories.capacity()) {
+            scene_.next_memories.push_reserved(memory);
+        } else {
+            ++world_.counters.lost_contacts;
         }
     }
 
@@ -168,7 +245,7 @@ private:
             }
         }
         if (memory.count != 0) {
-            scene_.memories.push_reserved(memory);
+            add_memory(memory);
         }
     }
 

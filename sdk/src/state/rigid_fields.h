@@ -56,7 +56,7 @@ void body_definition_fields(Io& io, lks_body_def& def, lks_body_shape (&shapes)[
     io.u32(def.filter.category);
     io.u32(def.filter.mask);
     io.i32(def.filter.group);
-    io.u32(def.reserved);
+    io.u32(def.never_sleeps);
 }
 
 // Where it is in the world, and where it goes.
@@ -64,6 +64,7 @@ template <typename Io>
 void body_place_fields(Io& io, Body& body) {
     vector_fields(io, body.position);
     vector_fields(io, body.target_position);
+    vector_fields(io, body.rest_position);
 }
 
 template <typename Io>
@@ -72,6 +73,9 @@ void body_motion_fields(Io& io, Body& body) {
     quaternion_fields(io, body.target_orientation);
     vector_fields(io, body.velocity);
     vector_fields(io, body.angular_velocity);
+    quaternion_fields(io, body.rest_orientation);
+    io.u32(body.rest_ticks);
+    io.u32(body.asleep);
 }
 
 template <typename Io>

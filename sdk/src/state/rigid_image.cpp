@@ -44,7 +44,7 @@ private:
 constexpr std::size_t slot_size = 8;
 constexpr std::size_t shape_size = 8 + 24 + 16 + 16 + 24 + 8;
 constexpr std::size_t body_size =
-    8 + LKS_MAX_BODY_SHAPES * shape_size + 7 * 8 + 16 + 2 * 24 + 2 * 32 + 2 * 24;
+    8 + LKS_MAX_BODY_SHAPES * shape_size + 7 * 8 + 16 + 3 * 24 + 3 * 32 + 2 * 24 + 8;
 constexpr std::size_t joint_size = 16 + 2 * 24 + 2 * 16 + 7 * 8 + 2 * 24;
 constexpr std::size_t push_size = 8 + 24 + 24;
 constexpr std::size_t memory_size = 16 + greatest_point_count * push_size;
@@ -100,8 +100,10 @@ bool body_is_valid(const lks_world& world, const BodyRecord& record) {
     const Body& body = record.body;
     // Spins may go beyond the limit by what the middle of a substep differs from its end.
     return check_body_def(world, record.def) == LKS_OK && within(body.position, world_position_limit) &&
-           within(body.target_position, world_position_limit) && is_unit(body.orientation) &&
-           is_unit(body.target_orientation) && within(body.velocity, body_speed_limit(world.rate)) &&
+           within(body.target_position, world_position_limit) &&
+           within(body.rest_position, world_position_limit) && is_unit(body.orientation) &&
+           is_unit(body.target_orientation) && is_unit(body.rest_orientation) && body.asleep <= 1 &&
+           within(body.velocity, body_speed_limit(world.rate)) &&
            within(body.angular_velocity, 2 * body_spin_limit(world.rate));
 }
 
@@ -288,7 +290,9 @@ void hash_rigid(Hash& hash, const RigidScene& scene, bool local) {
             body_definition_fields(hashing, record.def, record.shapes);
             if (local) {
                 fixed::Vec3 motion = body.target_position - body.position;
+                fixed::Vec3 rest = body.rest_position - body.position;
                 vector_fields(hashing, motion);
+                vector_fields(hashing, rest);
             } else {
                 body_place_fields(hashing, body);
             }

@@ -1,0 +1,235 @@
+#include "rigid/sleep.h"
+
+#include <algorithm>
+
+#include "collide/saturation.h"
+
+namespace lks {
+namespace {
+
+using fixed::Vec3;
+
+constexpr std::int64_t still_distance = (std::int64_t{1} << world_fraction_bits) / 100;
+// Half turns: two degrees.
+constexpr std::int64_t still_turn = turn_one / 57;
+
+bool moves(const Body& body) {
+    return !(body.velocity == Vec3{0, 0, 0}) || !(body.angular_velocity == Vec3{0, 0, 0});
+}
+
+// The bodies of an island point to the least index in it.
+class Islands {
+public:
+    explicit Islands(RigidScene& scene) : scene_(scene), roots_(scene.islands) {
+        roots_.clear();
+        for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+            roots_.push_reserved(i);
+        }
+        for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+            if (scene.joint_slots[i].used) {
+                const JointDescription& joint = scene.joints[i].description;
+                join(joint.body_a, joint.body_b);
+            }
+        }
+        for (const ContactMemory& memory : scene.memories) {
+            if (memory.key.other < other_is_collider) {
+                join(memory.key.body_a, memory.key.other);
+            }
+        }
+    }
+
+    std::uint32_t root(std::uint32_t body) {
+        while (roots_[body] != body) {
+            roots_[body] = roots_[roots_[body]];
+            body = roots_[body];
+        }
+        return body;
+    }
+
+private:
+    // Kinematic bodies hold nothing together.
+    void join(std::uint32_t a, std::uint32_t b) {
+        if (!scene_.bodies[a].is_dynamic() || !scene_.bodies[b].is_dynamic()) {
+            return;
+        }
+        const std::uint32_t p = root(a);
+        const std::uint32_t q = root(b);
+        roots_[std::max(p, q)] = std::min(p, q);
+    }
+
+    RigidScene& scene_;
+    Array<std::uint32_t>& roots_;
+};
+
+// Calls use(body) for each dynamic body that something kinematic and moving has to do with.
+template <typename Use>
+void for_each_disturbed(const lks_world& world, const Use& use) {
+    const RigidScene& scene = world.rigid;
+    const auto disturbs = [&](std::uint32_t other) {
+        if (other >= other_is_collider) {
+            const std::size_t index = other & ~other_is_collider;
+            return index < world.colliders.size() && world.colliders[index].used &&
+                   world.colliders[index].collider.moves();
+        }
+        return !scene.bodies[other].is_dynamic() && moves(scene.bodies[other]);
+    };
+    const auto look = [&](std::uint32_t a, std::uint32_t other) {
+        if (scene.bodies[a].is_dynamic() && disturbs(other)) {
+            use(a);
+        }
+    };
+    for (const ContactMemory& memory : scene.memories) {
+        look(memory.key.body_a, memory.key.other);
+        if (memory.key.other < other_is_collider) {
+            look(memory.key.other, memory.key.body_a);
+        }
+    }
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        if (scene.joint_slots[i].used) {
+            const JointDescription& joint = scene.joints[i].description;
+            look(joint.body_a, joint.body_b);
+            look(joint.body_b, joint.body_a);
+        }
+    }
+}
+
+void mark_touched(RigidScene& scene) {
+    for (Body& body : scene.bodies) {
+        body.touched = false;
+    }
+    for (const ContactMemory& memory : scene.memories) {
+        scene.bodies[memory.key.body_a].touched = true;
+        if (memory.key.other < other_is_collider) {
+            scene.bodies[memory.key.other].touched = true;
+        }
+    }
+}
+
+// How fast any point of it may be, World m/s; generous.
+std::int64_t greatest_speed(const Body& body, std::int64_t radius) {
+    const std::int64_t spin = std::min(sum_of_magnitudes(body.angular_velocity), LKS_FIXED(1000));
+    const std::int64_t by_spin =
+        fixed::saturate_to_int64(fixed::multiply_signed(spin, radius) >> world_fraction_bits);
+    return fixed::saturating_add(sum_of_magnitudes(body.velocity), by_spin);
+}
+
+// Counts the ticks for which a body has trembled at one place, or crept. A twitch of a limb takes back some
+// of them, a real motion all.
+void count_rest(Body& body, std::int64_t radius, std::uint32_t most) {
+    constexpr std::int64_t slow = (std::int64_t{1} << world_fraction_bits) / 10;
+    constexpr std::int64_t fast = (std::int64_t{1} << world_fraction_bits) / 2;
+    constexpr std::uint32_t twitch = 8;
+    const bool stayed =
+        sum_of_magnitudes(saturating_subtract(body.position, body.rest_position)) <= still_distance &&
+        sum_of_magnitudes(half_turn_between(body.rest_orientation, body.orientation)) <= still_turn;
+    if (!stayed) {
+        body.rest_position = body.position;
+        body.rest_orientation = body.orientation;
+    }
+    const std::int64_t speed = greatest_speed(body, radius);
+    if (stayed || speed <= slow) {
+        body.rest_ticks = std::min(body.rest_ticks + 1, most);
+    } else {
+        body.rest_ticks = speed > fast || body.rest_ticks < twitch ? 0 : body.rest_ticks - twitch;
+    }
+}
+
+// What lies on something and is on its way to sleep gives up a quarter of its speed a tick: a pile in which
+// everybody trembles a little would keep itself awake. What hangs or flies does not: a pendulum is slow, too,
+// where it turns back.
+void calm(Body& body) {
+    const auto part = [](const Vec3& v) { return Vec3{v.x - v.x / 4, v.y - v.y / 4, v.z - v.z / 4}; };
+    body.velocity = part(body.velocity);
+    body.angular_velocity = part(body.angular_velocity);
+}
+
+} // namespace
+
+void wake(Body& body) {
+    body.asleep = 0;
+    body.rest_ticks = 0;
+}
+
+void wake_all(RigidScene& scene) {
+    for (Body& body : scene.bodies) {
+        wake(body);
+    }
+}
+
+void wake_neighbours(RigidScene& scene, std::uint32_t other) {
+    for (const ContactMemory& memory : scene.memories) {
+        if (memory.key.other == other) {
+            wake(scene.bodies[memory.key.body_a]);
+        } else if (memory.key.body_a == other && memory.key.other < other_is_collider) {
+            wake(scene.bodies[memory.key.other]);
+        }
+    }
+}
+
+void wake_islands(lks_world& world) {
+    RigidScene& scene = world.rigid;
+    const bool any = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                 [](const Body& body) { return body.asleep != 0; });
+    if (!any) {
+        return;
+    }
+    for_each_disturbed(world, [&](std::uint32_t body) { wake(scene.bodies[body]); });
+    Islands islands(scene);
+    // First the roots, then those that follow them: an awake body wakes its root.
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        if (scene.bodies[i].is_dynamic() && scene.bodies[i].asleep == 0) {
+            scene.bodies[islands.root(i)].asleep = 0;
+        }
+    }
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        if (scene.bodies[i].asleep != 0 && scene.bodies[islands.root(i)].asleep == 0) {
+            wake(scene.bodies[i]);
+        }
+    }
+}
+
+void fall_asleep(lks_world& world) {
+    RigidScene& scene = world.rigid;
+    const std::uint32_t enough = std::max(world.rate.ticks_per_second / 2, 2u);
+    mark_touched(scene);
+    bool ready = false;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        Body& body = scene.bodies[i];
+        if (body.is_awake()) {
+            count_rest(body, scene.descriptions[i].radius, 2 * enough);
+            if (body.touched && body.rest_ticks >= enough / 3 && scene.descriptions[i].never_sleeps == 0) {
+                calm(body);
+            }
+            ready = ready || body.rest_ticks >= enough;
+        }
+    }
+    if (!ready) {
+        return;
+    }
+    for_each_disturbed(world, [&](std::uint32_t body) { scene.bodies[body].rest_ticks = 0; });
+    Islands islands(scene);
+    // The least rest of an island, at its root.
+    Array<std::uint32_t>& least = scene.island_rests;
+    least.clear();
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        least.push_reserved(UINT32_MAX);
+    }
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        const Body& body = scene.bodies[i];
+        if (body.is_dynamic()) {
+            std::uint32_t& rest = least[islands.root(i)];
+            rest = std::min(rest, scene.descriptions[i].never_sleeps != 0 ? 0 : body.rest_ticks);
+        }
+    }
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        Body& body = scene.bodies[i];
+        if (body.is_dynamic() && body.asleep == 0 && least[islands.root(i)] >= enough) {
+            body.asleep = 1;
+            body.velocity = {0, 0, 0};
+            body.angular_velocity = {0, 0, 0};
+            body.follow_orientation();
+        }
+    }
+}
+
+} // namespace lks

@@ -1,0 +1,155 @@
+// Who falls asleep, who does not, and what wakes them.
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <vector>
+
+#include "support/bodies.h"
+
+using namespace support;
+
+namespace {
+
+// Three boxes upon each other, and a fourth one far away.
+struct Boxes {
+    Boxes() : world(world_def(60, 8)) {
+        add_ground(world);
+        for (int i = 0; i < 3; ++i) {
+            bodies.push_back(add_body(world, box_shape(0.2, 0.2, 0.2), fixed(0, 0.2 + 0.4 * i, 0)));
+        }
+        bodies.push_back(add_body(world, box_shape(0.2, 0.2, 0.2), fixed(5, 0.2, 0)));
+        world.step(240);
+    }
+
+    std::uint32_t awake() const { return lks_world_awake_body_count(world); }
+
+    World world;
+    std::vector<lks_body_id> bodies;
+};
+
+} // namespace
+
+TEST_CASE("what has come to rest falls asleep, and an hour changes nothing more") {
+    Boxes boxes;
+    REQUIRE(boxes.awake() == 0);
+    std::vector<BodyState> before;
+    for (const lks_body_id body : boxes.bodies) {
+        before.push_back(state_of(boxes.world, body));
+        CHECK(lks_body_is_awake(boxes.world, body) == 0);
+        CHECK(before.back().velocity.length() == 0);
+    }
+    boxes.world.step(216000);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const BodyState now = state_of(boxes.world, boxes.bodies[i]);
+        CHECK(now.position.x == before[i].position.x);
+        CHECK(now.position.y == before[i].position.y);
+        CHECK(now.rotation.w == before[i].rotation.w);
+    }
+}
+
+TEST_CASE("what the game does to one wakes its island, and nobody else") {
+    using Act = std::function<void(Boxes&)>;
+    const Act acts[] = {
+        [](Boxes& b) {
+            REQUIRE(lks_body_apply_impulse(b.world, b.bodies[2], fixed(0, 1, 0), fixed(0, 1, 0)) == LKS_OK);
+        },
+        [](Boxes& b) {
+            REQUIRE(lks_body_set_velocity(b.world, b.bodies[1], fixed(0.1, 0, 0), {}) == LKS_OK);
+        },
+        [](Boxes& b) { REQUIRE(lks_body_wake(b.world, b.bodies[0]) == LKS_OK); },
+        [](Boxes& b) {
+            add_body(b.world, ball_shape(0.1), fixed(0.3, 1.4, 0.05));
+            b.world.step(30);
+        },
+    };
+    for (const Act& act : acts) {
+        Boxes boxes;
+        REQUIRE(boxes.awake() == 0);
+        act(boxes);
+        boxes.world.step();
+        for (int i = 0; i < 3; ++i) {
+            CHECK(lks_body_is_awake(boxes.world, boxes.bodies[i]) == 1);
+        }
+        CHECK(lks_body_is_awake(boxes.world, boxes.bodies[3]) == 0);
+        boxes.world.step(600);
+        CHECK(boxes.awake() == 0);
+    }
+}
+
+TEST_CASE("who loses what it rests on wakes and falls") {
+    Boxes boxes;
+    REQUIRE(lks_world_remove_body(boxes.world, boxes.bodies[0]) == LKS_OK);
+    boxes.world.step(120);
+    CHECK(state_of(boxes.world, boxes.bodies[2]).position.y < 0.65);
+    CHECK(state_of(boxes.world, boxes.bodies[1]).position.y < 0.25);
+
+    Boxes others;
+    REQUIRE(lks_world_set_gravity(others.world, fixed(0, 9.81, 0)) == LKS_OK);
+    others.world.step(60);
+    CHECK(state_of(others.world, others.bodies[3]).position.y > 3);
+
+    World world(world_def(60, 8));
+    lks_collider_def shelf = lks_default_collider_def();
+    shelf.shape = LKS_SHAPE_BOX;
+    const lks_collider_id id = world.add(shelf);
+    const lks_body_id ball = add_body(world, box_shape(0.1, 0.1, 0.1), fixed(0, 0.6, 0));
+    world.step(120);
+    CHECK(lks_body_is_awake(world, ball) == 0);
+    REQUIRE(lks_world_remove_collider(world, id) == LKS_OK);
+    world.step(60);
+    CHECK(state_of(world, ball).position.y < -3);
+}
+
+TEST_CASE("what moves by itself wakes whom it touches") {
+    for (const bool as_body : {false, true}) {
+        Boxes boxes;
+        lks_transform place = at(0, 0.2, -1.5);
+        lks_collider_id collider{};
+        lks_body_id pusher{};
+        if (as_body) {
+            lks_body_def def = lks_default_body_def();
+            def.kind = LKS_BODY_KINEMATIC;
+            pusher = add_body(boxes.world, box_shape(0.2, 0.2, 0.2), place.position, def);
+        } else {
+            lks_collider_def def = lks_default_collider_def();
+            def.shape = LKS_SHAPE_BOX;
+            def.half_extents = fixed(0.2, 0.2, 0.2);
+            def.transform = place;
+            collider = boxes.world.add(def);
+            boxes.world.step(60); // it woke them all
+        }
+        REQUIRE(boxes.awake() == 0);
+        for (int tick = 0; tick < 120; ++tick) {
+            place.position.z += fixed(0.0125);
+            REQUIRE((as_body ? lks_body_move_to(boxes.world, pusher, place)
+                             : lks_collider_move_to(boxes.world, collider, place)) == LKS_OK);
+            boxes.world.step();
+            if (tick == 40) {
+                CHECK(boxes.awake() == 0); // half a metre away
+            }
+        }
+        CHECK(state_of(boxes.world, boxes.bodies[0]).position.z > 0.3);
+        CHECK(lks_body_is_awake(boxes.world, boxes.bodies[3]) == 0);
+    }
+}
+
+TEST_CASE("a ragdoll on the ground falls asleep; one that must not sleep, and what it touches, does not") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    lks_bone bones[LKS_HUMANOID_BONES];
+    lks_body_shape shapes[LKS_HUMANOID_BONES];
+    REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
+    lks_ragdoll_def def = lks_default_ragdoll_def();
+    def.bones = bones;
+    def.bone_count = LKS_HUMANOID_BONES;
+    lks_body_id ids[LKS_HUMANOID_BONES];
+    REQUIRE(lks_world_add_ragdoll(world, &def, ids, nullptr) == LKS_OK);
+    world.step(600);
+    CHECK(lks_world_awake_body_count(world) == 0);
+    lks_body_def restless = lks_default_body_def();
+    restless.never_sleeps = 1;
+    const lks_body_id box = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(5, 0.2, 0), restless);
+    world.step(300);
+    CHECK(lks_world_awake_body_count(world) == 1);
+    CHECK(lks_body_is_awake(world, box) == 1);
+}
