@@ -9,36 +9,12 @@ namespace {
 constexpr lks_fixed least_size = LKS_FIXED_RATIO(1, 1000);
 constexpr lks_fixed greatest_size = LKS_FIXED(30);
 
-struct Number {
-    const char* name;
-    const char* unit;
-    lks_fixed value;
-    lks_fixed least;
-    lks_fixed greatest;
-};
-
-lks_result check_number(const lks_world& world, const Number& n) {
-    if (n.value >= n.least && n.value <= n.greatest) {
-        return LKS_OK;
-    }
-    return world.fail(LKS_ERROR_INVALID_ARGUMENT, out_of_range(n.name, n.value, n.unit, n.least, n.greatest));
-}
-
-template <std::size_t count>
-lks_result check_numbers(const lks_world& world, const Number (&numbers)[count]) {
-    for (const Number& number : numbers) {
-        if (const lks_result result = check_number(world, number); result != LKS_OK) {
-            return result;
-        }
-    }
-    return LKS_OK;
-}
-
 lks_result check_shape(const lks_world& world, const lks_body_shape& shape) {
     lks_result result = LKS_OK;
     switch (shape.shape) {
     case LKS_SHAPE_SPHERE:
-        result = check_number(world, {"sphere's radius", " m", shape.radius, least_size, greatest_size});
+        result =
+            check_numbers(world, {Number{"sphere's radius", " m", shape.radius, least_size, greatest_size}});
         break;
     case LKS_SHAPE_CAPSULE:
         result = check_numbers(world,
@@ -70,8 +46,8 @@ lks_result check_shape(const lks_world& world, const lks_body_shape& shape) {
     }
     result = check_rotation(world, shape.transform.rotation);
     return result != LKS_OK ? result
-                            : check_number(world, {"shape's density", " kg/m³", shape.density, least_size,
-                                                   LKS_FIXED(100000)});
+                            : check_numbers(world, {Number{"shape's density", " kg/m³", shape.density,
+                                                           least_size, LKS_FIXED(100000)}});
 }
 
 lks_result check_shapes(const lks_world& world, const lks_body_def& def) {

@@ -28,6 +28,17 @@ Sentence wrong_struct_size(const char* type, std::uint32_t given, std::size_t ex
                       << "; start from lks_default_ and the type's name.";
 }
 
+lks_result check_numbers(const lks_world& world, const Number* numbers, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const Number& n = numbers[i];
+        if (n.value < n.least || n.value > n.greatest) {
+            return world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                              out_of_range(n.name, n.value, n.unit, n.least, n.greatest));
+        }
+    }
+    return LKS_OK;
+}
+
 lks_result check_rotation(const lks_world& world, const lks_rotation& rotation) {
     if (fixed::is_nearly_unit(to_rotation(rotation))) {
         return LKS_OK;

@@ -30,6 +30,23 @@ inline fixed::Rotation to_rotation(const lks_rotation& value) {
 // LKS_OK, or reported: the quaternion's length is not one.
 lks_result check_rotation(const lks_world& world, const lks_rotation& rotation);
 
+// A number with its range, and what to call it; the unit begins with a space.
+struct Number {
+    const char* name;
+    const char* unit;
+    std::int64_t value; // World
+    std::int64_t least;
+    std::int64_t greatest;
+};
+
+// LKS_OK, or reported: the first one that is out of its range.
+lks_result check_numbers(const lks_world& world, const Number* numbers, std::size_t count);
+
+template <std::size_t count>
+lks_result check_numbers(const lks_world& world, const Number (&numbers)[count]) {
+    return check_numbers(world, numbers, count);
+}
+
 // "the velocity (0, 1e5, 0) m/s lies outside ±1000".
 Sentence out_of_range(const char* name, const lks_vec3& value, const char* unit, std::int64_t limit);
 Sentence out_of_range(const char* name, std::int64_t value, const char* unit, std::int64_t low,

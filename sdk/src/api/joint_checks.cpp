@@ -8,15 +8,7 @@ namespace {
 constexpr lks_fixed half_circle = LKS_FIXED(180);
 constexpr lks_fixed greatest_length = LKS_FIXED(64);
 
-struct Number {
-    const char* name;
-    const char* unit;
-    lks_fixed value;
-    lks_fixed least;
-    lks_fixed greatest;
-};
-
-lks_result check_numbers(const lks_world& world, const lks_joint_def& def) {
+lks_result check_ranges(const lks_world& world, const lks_joint_def& def) {
     const Number numbers[] = {
         {"swing_limit", " degrees", def.swing_limit, 0, half_circle},
         {"twist_max", " degrees", def.twist_max, -half_circle, half_circle},
@@ -26,13 +18,7 @@ lks_result check_numbers(const lks_world& world, const lks_joint_def& def) {
         {"joint's compliance", " m/N", def.compliance, 0, LKS_FIXED(1000)},
         {"joint's friction", " N·m", def.friction, 0, LKS_FIXED(1000000)},
     };
-    for (const Number& n : numbers) {
-        if (n.value < n.least || n.value > n.greatest) {
-            return world.fail(LKS_ERROR_INVALID_ARGUMENT,
-                              out_of_range(n.name, n.value, n.unit, n.least, n.greatest));
-        }
-    }
-    return LKS_OK;
+    return check_numbers(world, numbers);
 }
 
 lks_result check_bodies(const lks_world& world, const lks_joint_def& def) {
@@ -81,7 +67,7 @@ lks_result check_joint_def(const lks_world& world, const lks_joint_def& def) {
             return result;
         }
     }
-    return check_numbers(world, def);
+    return check_ranges(world, def);
 }
 
 lks_result require_joint(const lks_world* world, lks_joint_id id) {

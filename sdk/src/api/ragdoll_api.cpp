@@ -116,22 +116,11 @@ lks_result check_bone(const lks_world& world, const lks_ragdoll_def& def, std::u
 
 lks_result check_limits(const lks_world& world, const lks_bone& bone) {
     constexpr lks_fixed half_circle = LKS_FIXED(180);
-    struct Limit {
-        const char* name;
-        lks_fixed value;
-        lks_fixed least;
-        lks_fixed greatest;
-    };
-    for (const Limit& limit : {Limit{"swing_limit", bone.swing_limit, 0, half_circle},
-                               Limit{"twist_max", bone.twist_max, -half_circle, half_circle},
-                               Limit{"twist_min", bone.twist_min, -half_circle, bone.twist_max},
-                               Limit{"friction", bone.friction, 0, LKS_FIXED(1000000)}}) {
-        if (limit.value < limit.least || limit.value > limit.greatest) {
-            return world.fail(LKS_ERROR_INVALID_ARGUMENT,
-                              out_of_range(limit.name, limit.value, "", limit.least, limit.greatest));
-        }
-    }
-    return LKS_OK;
+    return check_numbers(world,
+                         {Number{"swing_limit", " degrees", bone.swing_limit, 0, half_circle},
+                          Number{"twist_max", " degrees", bone.twist_max, -half_circle, half_circle},
+                          Number{"twist_min", " degrees", bone.twist_min, -half_circle, bone.twist_max},
+                          Number{"friction", " N·m", bone.friction, 0, LKS_FIXED(1000000)}});
 }
 
 lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {

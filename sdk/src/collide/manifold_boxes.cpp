@@ -156,12 +156,9 @@ private:
             for (int j = 0; j < 3; ++j) {
                 const Direction u = axis(a_.axes, i);
                 const Direction v = axis(b_.axes, j);
-                const Vec3 across{std::int64_t{u.y} * v.z - std::int64_t{u.z} * v.y,
-                                  std::int64_t{u.z} * v.x - std::int64_t{u.x} * v.z,
-                                  std::int64_t{u.x} * v.y - std::int64_t{u.y} * v.x};
                 // Edges within 3° of each other meet as faces do.
                 fixed::NormalisedVector way{};
-                if (!fixed::normalise(across, way) || way.length < (std::int64_t{1} << 60) / 20) {
+                if (!fixed::normalise(fixed::cross(u, v), way) || way.length < (std::int64_t{1} << 60) / 20) {
                     continue;
                 }
                 const Direction& n = way.direction;

@@ -16,20 +16,6 @@ constexpr std::int64_t parallel = (std::int64_t{1} << 30) >> 6;
 // And below which the nearest points say nothing: 0.06°.
 constexpr std::int64_t nearly_parallel = (std::int64_t{1} << 30) >> 20;
 
-// Any direction across u.
-Direction across(const Direction& u) {
-    const auto size = [](std::int32_t c) { return c < 0 ? -c : c; };
-    const Vec3 v = size(u.x) < size(u.y) ? Vec3{0, -u.z, u.y} : Vec3{-u.z, 0, u.x};
-    fixed::NormalisedVector n{};
-    return fixed::normalise(v, n) ? n.direction : Direction{direction_one, 0, 0};
-}
-
-Vec3 cross(const Direction& u, const Direction& v) {
-    return {std::int64_t{u.y} * v.z - std::int64_t{u.z} * v.y,
-            std::int64_t{u.z} * v.x - std::int64_t{u.x} * v.z,
-            std::int64_t{u.x} * v.y - std::int64_t{u.y} * v.x};
-}
-
 } // namespace
 
 void collide_segments(const Piece& a, const Piece& b, std::int64_t margin, Manifold& out) {
@@ -68,9 +54,10 @@ void collide_segments(const Piece& a, const Piece& b, std::int64_t margin, Manif
     const auto on_a = [&](std::int64_t at) { return a.centre + fixed::scale(u, at); };
     const auto on_b = [&](std::int64_t at) { return b.centre + fixed::scale(v, at); };
     fixed::NormalisedVector way{};
-    // Across both where the cores meet; anything where they are one.
-    const bool found = fixed::normalise(on_b(t) - on_a(s), way) || fixed::normalise(cross(u, v), way);
-    out.normal = found ? way.direction : across(u);
+    // Across both where the cores meet; anything across where they are one.
+    static_cast<void>(fixed::normalise(on_b(t) - on_a(s), way) || fixed::normalise(fixed::cross(u, v), way) ||
+                      fixed::normalise(fixed::some_across(u), way));
+    out.normal = way.direction;
     const std::int64_t radii = a.radius + b.radius;
     if (side_by_side) {
         const std::int64_t first = nearest_a(-half_b);

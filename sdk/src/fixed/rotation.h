@@ -143,6 +143,18 @@ constexpr Direction rotate_transposed(const Matrix3& a, Direction d) {
             dot(Direction{a.m[0][2], a.m[1][2], a.m[2][2]}, d)};
 }
 
+// First b, then a; each entry rounded half up.
+constexpr Matrix3 multiply(const Matrix3& a, const Matrix3& b) {
+    Matrix3 out{};
+    for (int column = 0; column < 3; ++column) {
+        const Direction d = rotate(a, Direction{b.m[0][column], b.m[1][column], b.m[2][column]});
+        out.m[0][column] = d.x;
+        out.m[1][column] = d.y;
+        out.m[2][column] = d.z;
+    }
+    return out;
+}
+
 // The quick forms: 32-bit vectors of any format, exact sums with 30 more fraction bits.
 constexpr Vec3 rotate32(const Matrix3& a, const std::int32_t (&v)[3]) {
     const auto sum = [&v](std::int32_t p, std::int32_t q, std::int32_t r) {

@@ -61,6 +61,20 @@ constexpr std::int32_t dot(Direction a, Direction b) {
     return static_cast<std::int32_t>(shift_right_rounded(sum, 30));
 }
 
+// Exact, 60 fraction bits.
+constexpr Vec3 cross(Direction a, Direction b) {
+    return {std::int64_t{a.y} * b.z - std::int64_t{a.z} * b.y,
+            std::int64_t{a.z} * b.x - std::int64_t{a.x} * b.z,
+            std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x};
+}
+
+// Some vector across d, not shorter than 2^30 / sqrt(2) for a unit vector.
+constexpr Vec3 some_across(Direction d) {
+    const std::int32_t x = d.x < 0 ? -d.x : d.x;
+    const std::int32_t y = d.y < 0 ? -d.y : d.y;
+    return x < y ? Vec3{0, -d.z, d.y} : Vec3{-d.z, 0, d.x};
+}
+
 // a * s over 2^30 to the nearest, half up; |a| <= 2^30, so that it always fits.
 constexpr std::int64_t scale_component(std::int32_t a, std::int64_t s) {
     const std::int64_t upper = a * (s >> 32);

@@ -112,6 +112,15 @@ std::int64_t body_spin_limit(const StepRate& rate) {
     return std::min<std::int64_t>(1000, n) << world_fraction_bits;
 }
 
+std::int64_t spin_speed(const Body& body, std::int64_t radius) {
+    const std::int64_t spin = sum_of_magnitudes(body.angular_velocity);
+    return fixed::saturate_to_int64(fixed::multiply_signed(spin, radius) >> world_fraction_bits);
+}
+
+std::int64_t greatest_speed(const Body& body, std::int64_t radius) {
+    return fixed::saturating_add(sum_of_magnitudes(body.velocity), spin_speed(body, radius));
+}
+
 bool clamp_vector(Vec3& value, std::int64_t limit) {
     const Vec3 before = value;
     value = {std::clamp(value.x, -limit, limit), std::clamp(value.y, -limit, limit),

@@ -28,19 +28,15 @@ Vec3 velocity_at(const Body& body, const Vec3& lever) {
 
 // Two directions across n, and across each other.
 void span(const Direction& n, Direction (&across)[2]) {
-    const auto size = [](std::int32_t c) { return c < 0 ? -c : c; };
-    const Vec3 u = size(n.x) < size(n.y) ? Vec3{0, -n.z, n.y} : Vec3{-n.z, 0, n.x};
     fixed::NormalisedVector way{};
-    fixed::normalise(u, way);
+    fixed::normalise(fixed::some_across(n), way);
     across[0] = way.direction;
-    const Direction& a = across[0];
+    const Vec3 second = fixed::cross(n, across[0]);
     const auto part = [](std::int64_t c) {
         return static_cast<std::int32_t>(
             std::clamp<std::int64_t>(fixed::shift_right_rounded(c, 30), -direction_one, direction_one));
     };
-    across[1] = {part(std::int64_t{n.y} * a.z - std::int64_t{n.z} * a.y),
-                 part(std::int64_t{n.z} * a.x - std::int64_t{n.x} * a.z),
-                 part(std::int64_t{n.x} * a.y - std::int64_t{n.y} * a.x)};
+    across[1] = {part(second.x), part(second.y), part(second.z)};
 }
 
 // From a point of a to a point of b, in world axes.

@@ -10,22 +10,10 @@ namespace lks {
 namespace {
 
 using fixed::Direction;
-using fixed::Matrix3;
 using fixed::Vec3;
 
 // What is this near is looked at, whatever its speed: two centimetres.
 constexpr std::int64_t near = (std::int64_t{1} << world_fraction_bits) / 50;
-
-Matrix3 multiply(const Matrix3& a, const Matrix3& b) {
-    Matrix3 out{};
-    for (int column = 0; column < 3; ++column) {
-        const Direction d = fixed::rotate(a, Direction{b.m[0][column], b.m[1][column], b.m[2][column]});
-        out.m[0][column] = d.x;
-        out.m[1][column] = d.y;
-        out.m[2][column] = d.z;
-    }
-    return out;
-}
 
 std::int64_t from_coordinate(std::int64_t value) {
     return value >> coordinate_from_world_shift; // exact: it came from World
@@ -41,7 +29,7 @@ Piece piece_of_body(const Body& body, const BodyShape& shape, const Vec3& refere
     piece.centre = (body.position - reference) + fixed::rotate(body.rotation, shape.position);
     piece.axes = shape.rotation == fixed::identity_rotation()
                      ? body.rotation
-                     : multiply(body.rotation, fixed::to_matrix(shape.rotation));
+                     : fixed::multiply(body.rotation, fixed::to_matrix(shape.rotation));
     return piece;
 }
 
@@ -98,16 +86,6 @@ Vec3 extent(const Piece& piece) {
         return piece.radius + (piece.half_length == 0 ? 0 : share(c[1], piece.half_length));
     };
     return {along(0), along(1), along(2)};
-}
-
-// How far any point of a body goes at most in a second; World, generous.
-std::int64_t spin_speed(const Body& body, std::int64_t radius) {
-    const std::int64_t spin = sum_of_magnitudes(body.angular_velocity);
-    return fixed::saturate_to_int64(fixed::multiply_signed(spin, radius) >> world_fraction_bits);
-}
-
-std::int64_t greatest_speed(const Body& body, std::int64_t radius) {
-    return sum_of_magnitudes(body.velocity) + spin_speed(body, radius);
 }
 
 // Further than `margin` along an axis of the world.

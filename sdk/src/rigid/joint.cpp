@@ -37,18 +37,6 @@ fixed::Rotation relative_rotation(const Joint& joint, const Body& a, const Body&
     return q.w < 0 ? fixed::Rotation{-q.x, -q.y, -q.z, -q.w} : q;
 }
 
-Vec3 cross(const Direction& u, const Direction& v) {
-    return {std::int64_t{u.y} * v.z - std::int64_t{u.z} * v.y,
-            std::int64_t{u.z} * v.x - std::int64_t{u.x} * v.z,
-            std::int64_t{u.x} * v.y - std::int64_t{u.y} * v.x};
-}
-
-// Some vector across u.
-Direction across_any(const Direction& u) {
-    const auto size = [](std::int32_t c) { return c < 0 ? -c : c; };
-    return size(u.x) < size(u.y) ? Direction{0, -u.z, u.y} : Direction{-u.z, 0, u.x};
-}
-
 // One row about an axis: what is to be turned, and by how much.
 class TurnRow {
 public:
@@ -228,14 +216,13 @@ Vec3 turn_back(const Joint& joint, Body& a, Body& b, const Vec3& error) {
 Vec3 axes_apart(const Joint& joint, const Body& a, const Body& b) {
     const Direction u = frame_axis(a, joint.description.frame_a);
     const Direction v = frame_axis(b, joint.description.frame_b);
-    const Vec3 error = scaled(cross(u, v), -30);
+    const Vec3 error = scaled(fixed::cross(u, v), -30);
     if (fixed::dot(u, v) >= 0) {
         return error;
     }
     fixed::NormalisedVector way{};
     if (!fixed::normalise(error, way)) {
-        const Direction aside = across_any(u);
-        fixed::normalise(Vec3{aside.x, aside.y, aside.z}, way);
+        fixed::normalise(fixed::some_across(u), way);
     }
     return {way.direction.x, way.direction.y, way.direction.z};
 }
@@ -264,9 +251,8 @@ void limit_swing(const Joint& joint, Body& a, Body& b) {
         return;
     }
     fixed::NormalisedVector way{};
-    if (!fixed::normalise(scaled(cross(u, v), -30), way)) {
-        const Direction aside = across_any(u);
-        fixed::normalise(Vec3{aside.x, aside.y, aside.z}, way);
+    if (!fixed::normalise(scaled(fixed::cross(u, v), -30), way)) {
+        fixed::normalise(fixed::some_across(u), way);
         way.length = 0;
     }
     const std::int64_t swing = fixed::angle_of(way.length, cosine);
@@ -343,7 +329,7 @@ JointAngles joint_angles(const Joint& joint, const Body& a, const Body& b) {
     const Direction u = frame_axis(a, joint.description.frame_a);
     const Direction v = frame_axis(b, joint.description.frame_b);
     fixed::NormalisedVector way{};
-    const bool apart = fixed::normalise(scaled(cross(u, v), -30), way);
+    const bool apart = fixed::normalise(scaled(fixed::cross(u, v), -30), way);
     return {fixed::angle_of(apart ? way.length : 0, fixed::dot(u, v)), 2 * fixed::angle_of(q.y, q.w)};
 }
 

@@ -55,12 +55,12 @@ Direction multiply_direction(const SymmetricMatrix& m, const Direction& v) {
 }
 
 // Of 30 fraction bits.
-Direction cross(const Direction& u, const Direction& v) {
-    const auto minor = [](std::int32_t p, std::int32_t q, std::int32_t r, std::int32_t t) {
-        return static_cast<std::int32_t>(
-            fixed::shift_right_rounded(std::int64_t{p} * q - std::int64_t{r} * t, 30));
+Direction narrow_cross(const Direction& u, const Direction& v) {
+    const Vec3 exact = fixed::cross(u, v);
+    const auto part = [](std::int64_t c) {
+        return static_cast<std::int32_t>(fixed::shift_right_rounded(c, 30));
     };
-    return {minor(u.y, v.z, u.z, v.y), minor(u.z, v.x, u.x, v.z), minor(u.x, v.y, u.y, v.x)};
+    return {part(exact.x), part(exact.y), part(exact.z)};
 }
 
 struct UnitLever {
@@ -128,7 +128,7 @@ RowSide push_side(const Body& body, std::int32_t share, const Direction& normal,
         return side;
     }
     const UnitLever unit = to_unit(body, lever);
-    const Direction arm = cross(unit.lever, normal);
+    const Direction arm = narrow_cross(unit.lever, normal);
     side.turn = multiply_direction(body.world_inverse, arm);
     side.weight_shift = unit.weight_shift;
     side.turn_shift = unit.turn_shift;
@@ -149,7 +149,7 @@ BlockSide block_side(const Body& body, std::int32_t share, const Vec3& lever, st
     Direction arms[3];
     Direction turns[3];
     for (int i = 0; i < 3; ++i) {
-        arms[i] = cross(unit.lever, {i == 0 ? one : 0, i == 1 ? one : 0, i == 2 ? one : 0});
+        arms[i] = narrow_cross(unit.lever, {i == 0 ? one : 0, i == 1 ? one : 0, i == 2 ? one : 0});
         turns[i] = multiply_direction(body.world_inverse, arms[i]);
     }
     int entry = 0;

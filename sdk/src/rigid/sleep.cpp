@@ -105,14 +105,6 @@ void mark_touched(RigidScene& scene) {
     }
 }
 
-// How fast any point of it may be, World m/s; generous.
-std::int64_t greatest_speed(const Body& body, std::int64_t radius) {
-    const std::int64_t spin = std::min(sum_of_magnitudes(body.angular_velocity), LKS_FIXED(1000));
-    const std::int64_t by_spin =
-        fixed::saturate_to_int64(fixed::multiply_signed(spin, radius) >> world_fraction_bits);
-    return fixed::saturating_add(sum_of_magnitudes(body.velocity), by_spin);
-}
-
 // Counts the ticks for which a body has trembled at one place, or crept. A twitch of a limb takes back some
 // of them, a real motion all.
 void count_rest(Body& body, std::int64_t radius, std::uint32_t most) {
