@@ -1,3 +1,4 @@
+#include "bullet_crowd.h"
 #include "bullet_peer.h"
 
 namespace lks_bench {
@@ -7,6 +8,10 @@ bool has_bullet() {
 }
 
 std::unique_ptr<Variant> make_bullet_peer(const Workload&) {
+    return nullptr;
+}
+
+std::unique_ptr<CrowdWorld> make_bullet_crowd(const Crowd&, int) {
     return nullptr;
 }
 

@@ -41,6 +41,7 @@ for measured in "projection", "tick":
         value(cloth, measured, variant)
 value(cloth, "in runs", "")
 value(measure("overhead"), "tick", "empty world")
+value(measure("ragdolls_100"), "whole tick", "8 substeps")
 
 refused = run(program, "bench", "clot_64", expected=2)
 if "'clot_64'" not in refused.stderr:
