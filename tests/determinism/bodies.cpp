@@ -187,3 +187,24 @@ TEST_CASE("a broken image of bodies is refused and leaves the world as it was") 
     CHECK(lks_world_load(world, good.data(), good.size() - 8) == LKS_ERROR_CORRUPT_IMAGE);
     CHECK(world.hash() == hash);
 }
+
+TEST_CASE("where contacts are more than there is room for, they are lost alike in every world, and counted") {
+    // Forty balls in one place: 780 pairs, where 64 + 16 · 40 find room.
+    World one(world_def(60, 4));
+    REQUIRE(lks_world_set_gravity(one, {0, 0, 0}) == LKS_OK);
+    for (int i = 0; i < 40; ++i) {
+        add_body(one, ball_shape(0.5), fixed(0.01 * i, 0.013 * (i % 7), 0.017 * (i % 5)));
+    }
+    const Image image = one.save();
+    World two(world_def(60, 4));
+    // Memory for many more bodies, which are gone again.
+    for (int i = 0; i < 300; ++i) {
+        add_body(two, ball_shape(0.1), fixed(i, 50, 0));
+    }
+    REQUIRE(lks_world_load(two, image.data(), image.size()) == LKS_OK);
+    one.step(20);
+    two.step(20);
+    CHECK(one.hash() == two.hash());
+    CHECK(one.counters().lost_contacts > 0);
+    CHECK(two.counters().lost_contacts > 0);
+}

@@ -22,7 +22,7 @@ std::uint32_t free_index(const RigidScene& scene) {
 }
 
 bool reserve_slot(lks_world& world, std::uint32_t index) {
-    if (index < world.rigid.bodies.capacity()) {
+    if (index < world.rigid.body_room()) {
         return true;
     }
     const std::size_t capacity = std::max<std::size_t>(16, 2 * world.rigid.bodies.size());

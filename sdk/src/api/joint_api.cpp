@@ -101,7 +101,7 @@ lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_j
         return world->fail(LKS_ERROR_LIMIT, Sentence()
                                                 << "A world holds at most " << LKS_MAX_JOINTS << " joints.");
     }
-    if (index >= scene.joints.capacity() &&
+    if (index >= scene.joint_room() &&
         !scene.reserve_joints(std::max<std::size_t>(16, 2 * scene.joints.size()))) {
         return world->fail_out_of_memory("a joint");
     }

@@ -165,8 +165,8 @@ bool reserve(lks_world& world, std::uint32_t bones) {
     const auto room = [bones](std::size_t size, std::size_t capacity) {
         return size + bones <= capacity ? capacity : 2 * size + bones;
     };
-    return scene.reserve(room(scene.bodies.size(), scene.bodies.capacity()), world.colliders.capacity()) &&
-           scene.reserve_joints(room(scene.joints.size(), scene.joints.capacity()));
+    return scene.reserve(room(scene.bodies.size(), scene.body_room()), world.colliders.capacity()) &&
+           scene.reserve_joints(room(scene.joints.size(), scene.joint_room()));
 }
 
 } // namespace

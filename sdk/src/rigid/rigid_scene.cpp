@@ -16,18 +16,23 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         return true;
     }
     const std::size_t boxes = body_count + collider_count;
-    return body_slots.reserve(body_count) && bodies.reserve(body_count) && descriptions.reserve(body_count) &&
-           ticks.reserve(body_count) && collider_bodies.reserve(collider_count) &&
-           pieces.reserve(body_count * LKS_MAX_BODY_SHAPES) && piece_starts.reserve(body_count) &&
-           travels.reserve(body_count) && overlaps.reserve(static_cast<std::uint32_t>(boxes)) &&
-           boxed.reserve(boxes) && pairs.reserve(pair_capacity(body_count)) &&
-           contacts.reserve(contact_capacity(body_count)) && memories.reserve(contact_capacity(body_count)) &&
-           next_memories.reserve(contact_capacity(body_count)) && loaded_kinds.reserve(body_count) &&
-           islands.reserve(body_count) && island_rests.reserve(body_count);
+    const bool done =
+        body_slots.reserve(body_count) && bodies.reserve(body_count) && descriptions.reserve(body_count) &&
+        ticks.reserve(body_count) && collider_bodies.reserve(collider_count) &&
+        pieces.reserve(body_count * LKS_MAX_BODY_SHAPES) && piece_starts.reserve(body_count) &&
+        travels.reserve(body_count) && overlaps.reserve(static_cast<std::uint32_t>(boxes)) &&
+        boxed.reserve(boxes) && pairs.reserve(pair_capacity(body_count)) &&
+        contacts.reserve(contact_capacity(body_count)) && memories.reserve(contact_capacity(body_count)) &&
+        next_memories.reserve(contact_capacity(body_count)) && loaded_kinds.reserve(body_count) &&
+        islands.reserve(body_count) && island_rests.reserve(body_count);
+    body_room_ = done ? std::max(body_room_, body_count) : body_room_;
+    return done;
 }
 
 bool RigidScene::reserve_joints(std::size_t count) {
-    return joint_slots.reserve(count) && joints.reserve(count) && jointed.reserve(count);
+    const bool done = joint_slots.reserve(count) && joints.reserve(count) && jointed.reserve(count);
+    joint_room_ = done ? std::max(joint_room_, count) : joint_room_;
+    return done;
 }
 
 void RigidScene::forget_contacts(std::uint32_t other) {

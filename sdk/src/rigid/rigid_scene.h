@@ -65,12 +65,19 @@ struct RigidScene {
     // Room for everything that a tick with so many slots may need. False: no memory.
     [[nodiscard]] bool reserve(std::size_t body_count, std::size_t collider_count);
     [[nodiscard]] bool reserve_joints(std::size_t count);
+    // How many slots everything has room for: where memory ran out, some arrays may have more.
+    std::size_t body_room() const { return body_room_; }
+    std::size_t joint_room() const { return joint_room_; }
     // What has pushed a body, or a collider | other_is_collider.
     void forget_contacts(std::uint32_t other);
     void free_joint(std::uint32_t index);
     // After joints came or went.
     void follow_joints();
     bool empty() const { return bodies.empty(); }
+
+private:
+    std::size_t body_room_ = 0;
+    std::size_t joint_room_ = 0;
 };
 
 // How many pairs of bodies, and contacts of shapes, a tick has room for with so many slots.
@@ -78,7 +85,7 @@ constexpr std::size_t pair_capacity(std::size_t bodies) {
     return 64 + 32 * bodies;
 }
 constexpr std::size_t contact_capacity(std::size_t bodies) {
-    return 64 + 12 * bodies;
+    return 64 + 16 * bodies;
 }
 
 } // namespace lks

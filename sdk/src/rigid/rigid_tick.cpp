@@ -229,7 +229,7 @@ private:
     }
 
     void add_memory(const ContactMemory& memory) {
-        if (scene_.next_memories.size() < scene_.next_memories.capacity()) {
+        if (scene_.next_memories.size() < contact_capacity(scene_.bodies.size())) {
             scene_.next_memories.push_reserved(memory);
         } else {
             ++world_.counters.lost_contacts;

@@ -82,7 +82,8 @@ bool lks_world::reserve_colliders(std::size_t count) {
             return false;
         }
     }
-    return colliders.reserve(count) && rigid.reserve(rigid.bodies.capacity(), count);
+    // The slots last: they say how many there is room for.
+    return rigid.reserve(rigid.body_room(), count) && colliders.reserve(count);
 }
 
 const KnownAsset* lks_world::find_asset(std::uint64_t fingerprint) const {
