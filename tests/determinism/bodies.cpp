@@ -208,3 +208,26 @@ TEST_CASE("where contacts are more than there is room for, they are lost alike i
     CHECK(one.counters().lost_contacts > 0);
     CHECK(two.counters().lost_contacts > 0);
 }
+
+TEST_CASE("a sleeping body that is struck wakes with the same bits in a world that was loaded") {
+    World original(world_def(60, 8));
+    add_ground(original);
+    lks_body_def def = lks_default_body_def();
+    def.restitution = fixed(0.8);
+    const lks_body_id target = add_body(original, capsule_shape(0.2, 0.3), fixed(0, 0.5, 0), def);
+    original.step(600);
+    REQUIRE(lks_body_is_awake(original, target) == 0);
+    def.velocity = fixed(-6, 0, 0);
+    def.gravity_factor = 0;
+    // So near that it strikes in the first substep.
+    add_body(original, ball_shape(0.1), fixed(0.305, state_of(original, target).position.y + 0.1, 0.01), def);
+    const Image image = original.save();
+    World loaded(world_def(60, 8));
+    REQUIRE(lks_world_load(loaded, image.data(), image.size()) == LKS_OK);
+    for (int tick = 0; tick < 120; ++tick) {
+        original.step();
+        loaded.step();
+        REQUIRE(original.hash() == loaded.hash());
+    }
+    CHECK(state_of(original, target).position.x < -0.05);
+}

@@ -16,8 +16,10 @@ constexpr std::int64_t allowed_overlap = (std::int64_t{1} << world_fraction_bits
 constexpr std::int64_t greatest_gripping_push = std::int64_t{1} << (world_fraction_bits - 2);
 
 Vec3 cross(const Vec3& spin, const Vec3& lever) {
-    // World · World; levers below 64 m are cut to 24 bits behind the point, spins below 1700 rad/s to 22.
-    const auto m = [](std::int64_t a, std::int64_t b) { return (a >> 18) * (b >> 16) >> 6; };
+    // World · World, spins to 22 bits behind the point and levers to 24; a collider's lever may be very long.
+    const auto m = [](std::int64_t a, std::int64_t b) {
+        return fixed::saturate_to_int64(fixed::multiply_signed(a >> 18, b >> 16) >> 6);
+    };
     return {m(spin.y, lever.z) - m(spin.z, lever.y), m(spin.z, lever.x) - m(spin.x, lever.z),
             m(spin.x, lever.y) - m(spin.y, lever.x)};
 }
@@ -275,7 +277,7 @@ void project(Contact& contact, ContactBodies bodies) {
         }
         const std::int64_t gap = gap_now(contact, point, bodies.a, bodies.b);
         const std::int64_t wanted =
-            std::max<std::int64_t>(point.push.normal - divide(gap, point.normal_inverse), 0);
+            std::clamp<std::int64_t>(point.push.normal - divide(gap, point.normal_inverse), 0, greatest_push);
         const std::int64_t more = wanted - point.push.normal;
         point.push.normal = wanted;
         if (more != 0) {

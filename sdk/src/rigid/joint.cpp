@@ -145,9 +145,10 @@ void project_points(Joint& joint, Body& a, Body& b) {
         error = error + Vec3{part(joint.push.x), part(joint.push.y), part(joint.push.z)};
     }
     clamp_vector(error, greatest_step);
-    const Vec3 p = -scaled(multiply(joint.inverse, error), joint.inverse_shift);
-    joint.push = joint.push + p;
-    push_apart(joint, a, b, p);
+    const Vec3 before = joint.push;
+    joint.push = before - scaled(multiply(joint.inverse, error), joint.inverse_shift);
+    clamp_vector(joint.push, greatest_push);
+    push_apart(joint, a, b, joint.push - before);
 }
 
 // The points at a distance: a row along the way between them.
@@ -410,6 +411,7 @@ void project(Joint& joint, Body& a, Body& b, bool forward) {
     }
     if (joint.description.kind == LKS_JOINT_HINGE || joint.description.kind == LKS_JOINT_FIXED) {
         joint.turn = joint.turn + turn_back(joint, a, b, turned_apart(joint, a, b));
+        clamp_vector(joint.turn, greatest_push);
     }
     if (joint.constants.swing_limited) {
         limit_swing(joint, a, b);

@@ -26,6 +26,10 @@ struct PairShares {
 // Both zero where both are infinitely heavy.
 PairShares pair_shares(const InverseMass& a, const InverseMass& b);
 
+// What a constraint pushes at most in a substep, World (1024 m): one that can't be satisfied would otherwise
+// carry ever more on.
+inline constexpr std::int64_t greatest_push = std::int64_t{1} << 50;
+
 // From 30 fraction bits, positive, to what divides by it: 1/W = mantissa · 2^-shift with W in units of one.
 struct Inverse {
     std::uint32_t mantissa; // 2^30 .. 2^31

@@ -26,6 +26,12 @@ public:
             return;
         }
         find_contacts(world_);
+        // Those that it has woken, too.
+        for (Body& body : scene_.bodies) {
+            if (body.is_awake()) {
+                body.world_inverse = rotated(body.inverse_inertia, body.rotation);
+            }
+        }
         any_restitution_ = false;
         for (const Contact& contact : scene_.contacts) {
             any_restitution_ = any_restitution_ || contact.restitution != 0;
@@ -90,7 +96,6 @@ private:
                 continue;
             }
             body.follow_orientation();
-            body.world_inverse = rotated(body.inverse_inertia, body.rotation);
             if (!body.is_dynamic()) {
                 aim_kinematic(body, rate_, world_.rate.substeps);
             }

@@ -123,13 +123,19 @@ bool joint_is_valid(const Joint& joint, const Array<std::uint8_t>& kinds) {
            d.swing_limit <= half_circle && d.twist_min >= -half_circle && d.twist_min <= d.twist_max &&
            d.twist_max <= half_circle && d.distance_min >= 0 && d.distance_min <= d.distance_max &&
            d.distance_max <= LKS_FIXED(64) && d.compliance >= 0 && d.compliance <= LKS_FIXED(1000) &&
-           d.friction >= 0 && d.friction <= LKS_FIXED(1000000);
+           d.friction >= 0 && d.friction <= LKS_FIXED(1000000) && within(joint.push, greatest_push) &&
+           within(joint.turn, greatest_push);
 }
 
-bool memory_is_valid(const ContactMemory& memory) {
-    constexpr std::int64_t greatest_push = std::int64_t{1} << 50;
-    bool good = memory.key.body_a < LKS_MAX_BODIES && memory.key.shapes < 64 &&
-                (memory.key.other & ~other_is_collider) < LKS_MAX_BODIES && memory.count >= 1 &&
+// Between a body and a later one, both there, or a collider.
+bool memory_is_valid(const ContactMemory& memory, const Array<std::uint8_t>& kinds) {
+    const ContactKey& key = memory.key;
+    const auto exists = [&kinds](std::uint32_t body) { return body < kinds.size() && kinds[body] != 0; };
+    const bool other_exists = key.other >= other_is_collider
+                                  ? (key.other & ~other_is_collider) < LKS_MAX_COLLIDERS
+                                  : key.other > key.body_a && exists(key.other);
+    bool good = exists(key.body_a) && other_exists &&
+                key.shapes < LKS_MAX_BODY_SHAPES * LKS_MAX_BODY_SHAPES && memory.count >= 1 &&
                 memory.count <= greatest_point_count;
     for (const ContactPush& push : memory.pushes) {
         good = good && push.reserved == 0 && push.normal >= 0 && push.normal <= greatest_push &&
@@ -219,7 +225,7 @@ bool check_rigid(ByteReader& in, const RigidCounts& counts, lks_world& world, co
     for (index = 0; index < counts.memories && in.complete(); ++index) {
         ContactMemory memory{};
         memory_fields(reading, memory);
-        if (!memory_is_valid(memory) || (index > 0 && !(last < memory.key))) {
+        if (!memory_is_valid(memory, kinds) || (index > 0 && !(last < memory.key))) {
             return false;
         }
         last = memory.key;
