@@ -7,6 +7,7 @@
 
 #include "state/hash.h"
 #include "state/image.h"
+#include "support/bodies.h"
 #include "support/builders.h"
 
 using namespace support;
@@ -35,7 +36,32 @@ struct Small {
             collider.half_extents = fixed(1, 1, 1);
             world.add(collider);
         }
+        add_bodies();
         world.step(3);
+    }
+
+    // A free slot between used ones, a joint of each kind, boxes that push each other, one that is kinematic.
+    void add_bodies() {
+        lks_body_id bodies[6];
+        for (int i = 0; i < 6; ++i) {
+            lks_body_def def = lks_default_body_def();
+            def.kind = i == 5 ? LKS_BODY_KINEMATIC : LKS_BODY_DYNAMIC;
+            def.never_sleeps = i == 4 ? 1u : 0u;
+            bodies[i] =
+                add_body(world, box_shape(0.2, 0.1, 0.15), fixed(20, 0.3 * i - 0.001 * (i % 2), 0), def);
+        }
+        for (std::uint32_t kind = LKS_JOINT_BALL; kind <= LKS_JOINT_DISTANCE; ++kind) {
+            lks_joint_def joint = lks_default_joint_def();
+            joint.kind = kind;
+            joint.distance_max = fixed(1);
+            joint.bodies_collide = 1;
+            add_joint(world, joint, bodies[kind], bodies[kind + 1]);
+        }
+        const lks_body_id left = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(30, 0.2, 0));
+        const lks_body_id right = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(30, 0.599, 0));
+        REQUIRE(lks_world_has_body(world, left) == 1);
+        REQUIRE(lks_world_has_body(world, right) == 1);
+        REQUIRE(lks_world_remove_body(world, bodies[0]) == LKS_OK);
     }
 };
 

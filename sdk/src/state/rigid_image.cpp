@@ -96,10 +96,31 @@ bool within(const fixed::Vec3& v, std::int64_t limit) {
     return lks::within(from_vec3(v), limit);
 }
 
+// As a saved one is: what a shape has not got is zero, and so are shapes that the body has not got.
+bool shapes_are_plain(const BodyRecord& record) {
+    for (std::uint32_t i = 0; i < LKS_MAX_BODY_SHAPES; ++i) {
+        const lks_body_shape& s = record.shapes[i];
+        const bool used = i < record.def.shape_count;
+        const bool round = used && s.shape != LKS_SHAPE_BOX;
+        const bool capsule = used && s.shape == LKS_SHAPE_CAPSULE;
+        const bool box = used && s.shape == LKS_SHAPE_BOX;
+        const fixed::Rotation rotation = to_rotation(s.transform.rotation);
+        if ((!round && s.radius != 0) || (!capsule && s.half_length != 0) ||
+            (!box && !lks::within(s.half_extents, 0)) || s.reserved != 0 ||
+            (used ? !(fixed::normalise(rotation) == rotation)
+                  : s.shape != 0 || s.density != 0 || !lks::within(s.transform.position, 0) ||
+                        !(rotation == fixed::Rotation{0, 0, 0, 0}))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool body_is_valid(const lks_world& world, const BodyRecord& record) {
     const Body& body = record.body;
     // Spins may go beyond the limit by what the middle of a substep differs from its end.
-    return check_body_def(world, record.def) == LKS_OK && within(body.position, world_position_limit) &&
+    return check_body_def(world, record.def) == LKS_OK && shapes_are_plain(record) &&
+           within(body.position, world_position_limit) &&
            within(body.target_position, world_position_limit) &&
            within(body.rest_position, world_position_limit) && is_unit(body.orientation) &&
            is_unit(body.target_orientation) && is_unit(body.rest_orientation) && body.asleep <= 1 &&
@@ -137,10 +158,13 @@ bool memory_is_valid(const ContactMemory& memory, const Array<std::uint8_t>& kin
     bool good = exists(key.body_a) && other_exists &&
                 key.shapes < LKS_MAX_BODY_SHAPES * LKS_MAX_BODY_SHAPES && memory.count >= 1 &&
                 memory.count <= greatest_point_count;
-    for (const ContactPush& push : memory.pushes) {
-        good = good && push.reserved == 0 && push.normal >= 0 && push.normal <= greatest_push &&
-               lks::within(push.across[0], greatest_push) && lks::within(push.across[1], greatest_push) &&
-               within(push.place, LKS_FIXED(128));
+    for (std::uint32_t i = 0; i < greatest_point_count; ++i) {
+        const ContactPush& push = memory.pushes[i];
+        const bool nothing = push.feature == 0 && push.normal == 0 && push.across[0] == 0 &&
+                             push.across[1] == 0 && within(push.place, 0);
+        good = good && (i < memory.count || nothing) && push.reserved == 0 && push.normal >= 0 &&
+               push.normal <= greatest_push && lks::within(push.across[0], greatest_push) &&
+               lks::within(push.across[1], greatest_push) && within(push.place, LKS_FIXED(128));
     }
     return good;
 }
