@@ -13,14 +13,6 @@ using namespace lks;
 
 namespace {
 
-std::uint32_t free_index(const RigidScene& scene) {
-    std::uint32_t index = 0;
-    while (index < scene.body_slots.size() && scene.body_slots[index].used) {
-        ++index;
-    }
-    return index;
-}
-
 bool reserve_slot(lks_world& world, std::uint32_t index) {
     if (index < world.rigid.body_room()) {
         return true;
@@ -92,7 +84,7 @@ lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_bod
         return result;
     }
     RigidScene& scene = world->rigid;
-    const std::uint32_t index = free_index(scene);
+    const std::uint32_t index = first_free(scene.body_slots);
     if (index >= LKS_MAX_BODIES) {
         return world->fail(LKS_ERROR_LIMIT, Sentence()
                                                 << "A world holds at most " << LKS_MAX_BODIES << " bodies.");
@@ -101,7 +93,7 @@ lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_bod
         return world->fail_out_of_memory("a body");
     }
     if (index == scene.body_slots.size()) {
-        scene.body_slots.push_reserved(BodySlot{1, false});
+        scene.body_slots.push_reserved(Slot{1, false});
         scene.bodies.push_reserved(Body{});
         scene.descriptions.push_reserved(BodyDescription{});
     }
@@ -122,9 +114,7 @@ lks_result lks_world_remove_body(lks_world* world, lks_body_id body) {
     forget_joints(scene, body.index);
     scene.bodies[body.index] = Body{};
     scene.descriptions[body.index] = BodyDescription{};
-    BodySlot& slot = scene.body_slots[body.index];
-    slot.used = false;
-    slot.generation = slot.generation == UINT32_MAX ? 1 : slot.generation + 1;
+    free_slot(scene.body_slots[body.index]);
     return LKS_OK;
 }
 
@@ -133,13 +123,7 @@ uint32_t lks_world_has_body(const lks_world* world, lks_body_id body) {
 }
 
 uint32_t lks_world_body_count(const lks_world* world) {
-    std::uint32_t count = 0;
-    if (world != nullptr) {
-        for (const BodySlot& slot : world->rigid.body_slots) {
-            count += slot.used ? 1 : 0;
-        }
-    }
-    return count;
+    return world == nullptr ? 0 : count_used(world->rigid.body_slots);
 }
 
 lks_fixed lks_world_spin_limit(const lks_world* world) {

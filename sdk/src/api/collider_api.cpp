@@ -36,14 +36,6 @@ ColliderState make_collider(const lks_collider_def& def) {
     return collider;
 }
 
-std::uint32_t free_index(const lks_world& world) {
-    std::uint32_t index = 0;
-    while (index < world.colliders.size() && world.colliders[index].used) {
-        ++index;
-    }
-    return index;
-}
-
 bool reserve_slot(lks_world& world, std::uint32_t index) {
     if (index < world.colliders.capacity()) {
         return true;
@@ -107,7 +99,7 @@ lks_result lks_world_add_collider(lks_world* world, const lks_collider_def* def,
     if (const lks_result result = check_transform(*world, def->transform); result != LKS_OK) {
         return result;
     }
-    const std::uint32_t index = free_index(*world);
+    const std::uint32_t index = first_free(world->colliders);
     if (index >= LKS_MAX_COLLIDERS) {
         return world->fail(LKS_ERROR_LIMIT,
                            Sentence() << "A world holds at most " << LKS_MAX_COLLIDERS << " colliders.");
@@ -138,7 +130,7 @@ lks_result lks_world_remove_collider(lks_world* world, lks_collider_id collider)
     wake_all(world->rigid);
     world->rigid.forget_contacts(collider.index | other_is_collider);
     slot.collider = ColliderState{};
-    slot.generation = slot.generation == UINT32_MAX ? 1 : slot.generation + 1;
+    slot.generation = next_generation(slot.generation);
     return LKS_OK;
 }
 

@@ -12,14 +12,6 @@ using namespace lks;
 
 namespace {
 
-std::uint32_t free_index(const RigidScene& scene) {
-    std::uint32_t index = 0;
-    while (index < scene.joint_slots.size() && scene.joint_slots[index].used) {
-        ++index;
-    }
-    return index;
-}
-
 JointDescription describe(const lks_joint_def& def, const RigidScene& scene) {
     JointDescription d{};
     d.kind = def.kind;
@@ -96,7 +88,7 @@ lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_j
         return result;
     }
     RigidScene& scene = world->rigid;
-    const std::uint32_t index = free_index(scene);
+    const std::uint32_t index = first_free(scene.joint_slots);
     if (index >= LKS_MAX_JOINTS) {
         return world->fail(LKS_ERROR_LIMIT, Sentence()
                                                 << "A world holds at most " << LKS_MAX_JOINTS << " joints.");
@@ -106,7 +98,7 @@ lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_j
         return world->fail_out_of_memory("a joint");
     }
     if (index == scene.joint_slots.size()) {
-        scene.joint_slots.push_reserved(JointSlot{1, false});
+        scene.joint_slots.push_reserved(Slot{1, false});
         scene.joints.push_reserved(Joint{});
     }
     Joint& made = scene.joints[index];
@@ -138,13 +130,7 @@ uint32_t lks_world_has_joint(const lks_world* world, lks_joint_id joint) {
 }
 
 uint32_t lks_world_joint_count(const lks_world* world) {
-    std::uint32_t count = 0;
-    if (world != nullptr) {
-        for (const JointSlot& slot : world->rigid.joint_slots) {
-            count += slot.used ? 1 : 0;
-        }
-    }
-    return count;
+    return world == nullptr ? 0 : count_used(world->rigid.joint_slots);
 }
 
 lks_result lks_joint_error(const lks_world* world, lks_joint_id joint, lks_fixed* error) {
@@ -187,8 +173,8 @@ lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lks_vec3* 
     const Joint& found = world->rigid.joints[joint.index];
     const JointBodies bodies = bodies_of(*world, found);
     const fixed::Scaled inverse_h = world->rate.inverse_h();
-    const bool a_greater = found.constants.shares.a == direction_one;
-    const fixed::Scaled factor = inverse_h * inverse_h / inverse_mass(a_greater ? bodies.a : bodies.b);
+    const fixed::Scaled factor =
+        inverse_h * inverse_h / greater_inverse_mass(found.constants.shares, bodies.a, bodies.b);
     if (force != nullptr) {
         *force = times(found.push, factor);
     }

@@ -72,14 +72,6 @@ void place_particles(Object& object, const lks_object_def& def, const StepRate& 
 }
 
 // The first free index, or one more than all.
-std::uint32_t free_index(const lks_world& world) {
-    std::uint32_t index = 0;
-    while (index < world.objects.size() && world.objects[index].object != nullptr) {
-        ++index;
-    }
-    return index;
-}
-
 bool reserve_slot(lks_world& world, std::uint32_t index) {
     if (index < world.objects.size()) {
         return true;
@@ -144,7 +136,8 @@ lks_result lks_world_add_object(lks_world* world, const lks_object_def* def, lks
     if (const lks_result result = check_object_def(*world, *def); result != LKS_OK) {
         return result;
     }
-    const std::uint32_t index = free_index(*world);
+    const std::uint32_t index =
+        first_free(world->objects, [](const ObjectSlot& slot) { return slot.object == nullptr; });
     if (index >= LKS_MAX_OBJECTS) {
         return world->fail(LKS_ERROR_LIMIT,
                            Sentence() << "A world holds at most " << LKS_MAX_OBJECTS << " objects.");

@@ -275,6 +275,11 @@ constexpr std::uint64_t square_root(UInt128 a) {
     return root >> (shift / 2);
 }
 
+// a * b / 2^n to the nearest, half up, saturating; 0 <= n <= 127.
+constexpr std::int64_t multiply_shift(std::int64_t a, std::int64_t b, int n) {
+    return saturate_to_int64(shift_right_rounded(multiply_signed(a, b), n));
+}
+
 // a * b / d to the nearest, ties away from zero, saturating. d = 0 saturates with the sign of the product; 0
 // / 0 is 0.
 constexpr std::int64_t multiply_divide(std::int64_t a, std::int64_t b, std::int64_t d) {

@@ -82,6 +82,11 @@ struct Body {
 
     bool is_dynamic() const { return inverse_mass.mantissa != 0; }
     bool is_awake() const { return is_dynamic() && asleep == 0; }
+    bool is_moving() const {
+        return !(velocity == fixed::Vec3{0, 0, 0}) || !(angular_velocity == fixed::Vec3{0, 0, 0});
+    }
+    // Awake, or kinematic and on its way.
+    bool is_active() const { return is_dynamic() ? asleep == 0 : is_moving(); }
     // What constraints may move it by: nothing while it sleeps.
     InverseMass effective_inverse_mass() const { return asleep != 0 ? InverseMass{0, 0} : inverse_mass; }
     // After `orientation` has changed.

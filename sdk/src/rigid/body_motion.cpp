@@ -16,31 +16,26 @@ std::int64_t divide_rounded(std::int64_t a, std::int64_t n) {
     return (a >= 0 ? a + n / 2 : a - n / 2) / n;
 }
 
-// a · b / 2^shift in 128 bits.
-std::int64_t scaled_product(std::int64_t a, std::int64_t b, int shift) {
-    return fixed::saturate_to_int64(fixed::shift_right_rounded(fixed::multiply_signed(a, b), shift));
-}
-
 // World rad/s to the half turn of a substep.
 Vec3 to_half_turn(const Vec3& spin, const MotionRate& rate) {
-    const auto part = [&](std::int64_t c) { return scaled_product(c, rate.half_turn_factor, 40); };
+    const auto part = [&](std::int64_t c) { return fixed::multiply_shift(c, rate.half_turn_factor, 40); };
     return {part(spin.x), part(spin.y), part(spin.z)};
 }
 
 Vec3 to_spin(const Vec3& half_turn, const MotionRate& rate) {
-    const auto part = [&](std::int64_t c) { return scaled_product(c, rate.substeps_per_second, 19); };
+    const auto part = [&](std::int64_t c) { return fixed::multiply_shift(c, rate.substeps_per_second, 19); };
     return {part(half_turn.x), part(half_turn.y), part(half_turn.z)};
 }
 
 // What moves from a to b in a substep has it exactly.
 Vec3 velocity_between(const Vec3& a, const Vec3& b, const MotionRate& rate) {
-    const auto part = [&](std::int64_t c) { return scaled_product(c, rate.substeps_per_second, 0); };
+    const auto part = [&](std::int64_t c) { return fixed::multiply_shift(c, rate.substeps_per_second, 0); };
     const Vec3 moved = saturating_subtract(b, a);
     return {part(moved.x), part(moved.y), part(moved.z)};
 }
 
 std::int64_t keep(std::int64_t value, std::uint32_t kept) {
-    return scaled_product(value, kept, unit_fraction_bits);
+    return fixed::multiply_shift(value, kept, unit_fraction_bits);
 }
 
 Vec3 keep(const Vec3& value, std::uint32_t kept) {
@@ -130,7 +125,7 @@ bool clamp_vector(Vec3& value, std::int64_t limit) {
 
 BodyTick make_body_tick(const BodyDescription& description, const StepRate& rate, const Vec3& gravity) {
     const auto step = [&](std::int64_t g) {
-        return divide_rounded(scaled_product(g, description.gravity_factor, world_fraction_bits),
+        return divide_rounded(fixed::multiply_shift(g, description.gravity_factor, world_fraction_bits),
                               static_cast<std::int64_t>(rate.substeps_per_second));
     };
     return {{step(gravity.x), step(gravity.y), step(gravity.z)},

@@ -179,6 +179,7 @@ void take_manifold(Contact& contact, const Manifold& manifold, const Body& a, co
     contact.normal = manifold.normal;
     contact.count = manifold.count;
     span(contact.normal, contact.across);
+    bool known[greatest_point_count];
     for (std::uint32_t i = 0; i < manifold.count; ++i) {
         const ManifoldPoint& from = manifold.points[i];
         ContactPoint& to = contact.points[i];
@@ -186,12 +187,11 @@ void take_manifold(Contact& contact, const Manifold& manifold, const Body& a, co
         to.core_a = fixed::rotate_transposed(a.rotation, from.core_a);
         to.core_b = fixed::rotate_transposed(b.rotation, from.core_b - (b.position - a.position));
         to.push = {from.feature, 0, to.core_a, 0, {0, 0}};
-        to.known = old.take_feature(from.feature, to.push);
+        known[i] = old.take_feature(from.feature, to.push);
     }
     for (std::uint32_t i = 0; i < manifold.count; ++i) {
-        ContactPoint& to = contact.points[i];
-        if (!to.known) {
-            old.take_nearest(to.push);
+        if (!known[i]) {
+            old.take_nearest(contact.points[i].push);
         }
     }
 }
@@ -230,8 +230,7 @@ bool strike(const Contact& contact, ContactBodies bodies, std::int64_t least_app
     RowSide side_b{};
     const Inverse inverse =
         make_row(bodies, contact.shares, contact.normal, levers.a, levers.b, side_a, side_b);
-    const std::int64_t back = fixed::saturate_to_int64(fixed::shift_right_rounded(
-        fixed::multiply_signed(approach, contact.restitution), world_fraction_bits));
+    const std::int64_t back = fixed::multiply_shift(approach, contact.restitution, world_fraction_bits);
     const std::int64_t p = divide(approach + back, inverse);
     accelerate(bodies.a, side_a, contact.normal, p, -1);
     accelerate(bodies.b, side_b, contact.normal, p, 1);
@@ -302,8 +301,8 @@ void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t le
         }
         const Levers levers = levers_now(contact, point, bodies.a, bodies.b);
         const Vec3 apart = velocity_at(bodies.b, levers.b) - velocity_at(bodies.a, levers.a);
-        const std::int64_t wanted = fixed::saturate_to_int64(fixed::shift_right_rounded(
-            fixed::multiply_signed(point.approach, contact.restitution), world_fraction_bits));
+        const std::int64_t wanted =
+            fixed::multiply_shift(point.approach, contact.restitution, world_fraction_bits);
         const std::int64_t missing = wanted - fixed::dot(contact.normal, apart);
         if (missing > 0) {
             const std::int64_t p = divide(missing, point.normal_inverse);

@@ -50,7 +50,6 @@ struct ContactPoint {
     fixed::Vec3 core_start; // the same of the cores
     std::int64_t separation;
     std::int64_t approach; // World m/s: how fast the surfaces closed
-    bool known;            // handed on by its feature
     bool active;
     RowSide normal_a, normal_b;
     RowSide across_a[2], across_b[2];

@@ -237,20 +237,13 @@ private:
         scene_.pairs.push_reserved(std::uint64_t{a} << 32 | b);
     }
 
-    // Awake, or kinematic and on its way.
-    bool is_active(std::uint32_t body) const {
-        const Body& found = scene_.bodies[body];
-        return found.is_dynamic()
-                   ? found.asleep == 0
-                   : !(found.velocity == Vec3{0, 0, 0}) || !(found.angular_velocity == Vec3{0, 0, 0});
-    }
-
     bool may_collide(std::uint32_t a, std::uint32_t b) const {
+        const Body& body = scene_.bodies[a];
         if (b >= other_is_collider) {
-            return scene_.bodies[a].is_dynamic() && (is_active(a) || collider_of(b).moves());
+            return body.is_dynamic() && (body.is_active() || collider_of(b).moves());
         }
-        if ((!scene_.bodies[a].is_dynamic() && !scene_.bodies[b].is_dynamic()) ||
-            (!is_active(a) && !is_active(b))) {
+        const Body& other = scene_.bodies[b];
+        if ((!body.is_dynamic() && !other.is_dynamic()) || (!body.is_active() && !other.is_active())) {
             return false;
         }
         if (std::binary_search(scene_.jointed.begin(), scene_.jointed.end(), std::uint64_t{a} << 32 | b)) {

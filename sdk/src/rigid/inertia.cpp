@@ -191,8 +191,7 @@ MassProperties mass_properties(const BodyShape* shapes, std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) {
         shares[i] = (masses[i] / out.mass).to_i64_fixed(turn_fraction_bits);
         const auto part = [&](std::int64_t c) {
-            return fixed::saturate_to_int64(
-                fixed::shift_right_rounded(fixed::multiply_signed(c, shares[i]), turn_fraction_bits));
+            return fixed::multiply_shift(c, shares[i], turn_fraction_bits);
         };
         const fixed::Vec3& p = shapes[i].position;
         out.centre = out.centre + fixed::Vec3{part(p.x), part(p.y), part(p.z)};

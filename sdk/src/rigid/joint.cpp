@@ -23,10 +23,20 @@ std::int64_t to_radians(std::int64_t degrees) {
     return fixed::multiply_divide(degrees, fixed::half_circle, half_circle_degrees);
 }
 
-// A joint's frame in world axes: only its axis, y, and one across it are ever needed.
-Direction frame_axis(const Body& body, const fixed::Rotation& frame) {
+// Of a joint's frame: local y, in its body's axes.
+Direction frame_axis(const fixed::Rotation& frame) {
     const fixed::Matrix3 m = fixed::to_matrix(frame);
-    return fixed::rotate(body.rotation, Direction{m.m[0][1], m.m[1][1], m.m[2][1]});
+    return {m.m[0][1], m.m[1][1], m.m[2][1]};
+}
+
+// A joint's two axes in the world.
+struct Axes {
+    Direction a, b;
+};
+
+Axes axes_of(const Joint& joint, const Body& a, const Body& b) {
+    return {fixed::rotate(a.rotation, joint.constants.axis_a),
+            fixed::rotate(b.rotation, joint.constants.axis_b)};
 }
 
 // From a's frame to b's.
@@ -138,10 +148,7 @@ void project_points(Joint& joint, Body& a, Body& b) {
     Vec3 error = joint_offset(joint, a, b) - joint.start;
     const std::int64_t softness = joint.constants.softness;
     if (softness != 0) {
-        const auto part = [softness](std::int64_t c) {
-            return fixed::saturate_to_int64(
-                fixed::shift_right_rounded(fixed::multiply_signed(c, softness), 30));
-        };
+        const auto part = [softness](std::int64_t c) { return fixed::multiply_shift(c, softness, 30); };
         error = error + Vec3{part(joint.push.x), part(joint.push.y), part(joint.push.z)};
     }
     clamp_vector(error, greatest_step);
@@ -179,8 +186,7 @@ void project_distance(Joint& joint, Body& a, Body& b) {
     const Vec3 lever_b = fixed::rotate(b.rotation, d.point_b);
     const RowSide side_a = push_side(a, joint.constants.shares.a, way.direction, lever_a, weight);
     const RowSide side_b = push_side(b, joint.constants.shares.b, way.direction, lever_b, weight);
-    const std::int64_t soft = fixed::saturate_to_int64(
-        fixed::shift_right_rounded(fixed::multiply_signed(pushed, joint.constants.softness), 30));
+    const std::int64_t soft = fixed::multiply_shift(pushed, joint.constants.softness, 30);
     std::int64_t p = -divide(error + soft, invert(weight));
     if (!rod) {
         // A rope only pulls, a strut only pushes.
@@ -195,11 +201,8 @@ void project_distance(Joint& joint, Body& a, Body& b) {
 }
 
 void turn_apart(const Joint& joint, Body& a, Body& b, const Vec3& p) {
-    const auto shift = [&](const Body& body) {
-        return std::min(body.inverse_shift + 2 * (joint.constants.reach - body.scale), 24) - 1;
-    };
-    turn(a, joint.constants.shares.a, shift(a), p, -1);
-    turn(b, joint.constants.shares.b, shift(b), p, 1);
+    turn(a, joint.constants.shares.a, joint.constants.reach, p, -1);
+    turn(b, joint.constants.shares.b, joint.constants.reach, p, 1);
 }
 
 // b is turned back against an error of 30 fraction bits, radians or sines; the push that it took.
@@ -215,8 +218,7 @@ Vec3 turn_back(const Joint& joint, Body& a, Body& b, const Vec3& error) {
 // A hinge's axes apart: a sine and its direction. Beyond a right angle: a right angle's worth; where they are
 // opposite, about any axis across.
 Vec3 axes_apart(const Joint& joint, const Body& a, const Body& b) {
-    const Direction u = frame_axis(a, joint.description.frame_a);
-    const Direction v = frame_axis(b, joint.description.frame_b);
+    const auto [u, v] = axes_of(joint, a, b);
     const Vec3 error = scaled(fixed::cross(u, v), -30);
     if (fixed::dot(u, v) >= 0) {
         return error;
@@ -245,10 +247,9 @@ Vec3 turned_apart(const Joint& joint, const Body& a, const Body& b) {
 }
 
 void limit_swing(const Joint& joint, Body& a, Body& b) {
-    const Direction u = frame_axis(a, joint.description.frame_a);
-    const Direction v = frame_axis(b, joint.description.frame_b);
+    const auto [u, v] = axes_of(joint, a, b);
     const std::int32_t cosine = fixed::dot(u, v);
-    if (cosine >= joint.constants.swing.cosine) {
+    if (cosine >= joint.constants.swing_cosine) {
         return;
     }
     fixed::NormalisedVector way{};
@@ -284,8 +285,7 @@ void limit_twist(const Joint& joint, Body& a, Body& b) {
         return;
     }
     // About the middle of both axes.
-    const Direction u = frame_axis(a, joint.description.frame_a);
-    const Direction v = frame_axis(b, joint.description.frame_b);
+    const auto [u, v] = axes_of(joint, a, b);
     fixed::NormalisedVector way{};
     if (fixed::normalise(Vec3{std::int64_t{u.x} + v.x, std::int64_t{u.y} + v.y, std::int64_t{u.z} + v.z},
                          way)) {
@@ -327,8 +327,7 @@ Vec3 joint_offset(const Joint& joint, const Body& a, const Body& b) {
 
 JointAngles joint_angles(const Joint& joint, const Body& a, const Body& b) {
     const fixed::Rotation q = relative_rotation(joint, a, b);
-    const Direction u = frame_axis(a, joint.description.frame_a);
-    const Direction v = frame_axis(b, joint.description.frame_b);
+    const auto [u, v] = axes_of(joint, a, b);
     fixed::NormalisedVector way{};
     const bool apart = fixed::normalise(scaled(fixed::cross(u, v), -30), way);
     return {fixed::angle_of(apart ? way.length : 0, fixed::dot(u, v)), 2 * fixed::angle_of(q.y, q.w)};
@@ -338,10 +337,12 @@ JointConstants make_joint_constants(const JointDescription& d, const Body& a, co
                                     const StepRate& rate) {
     JointConstants c{};
     c.shares = pair_shares(a.inverse_mass, b.inverse_mass);
+    c.axis_a = frame_axis(d.frame_a);
+    c.axis_b = frame_axis(d.frame_b);
     c.swing_limited = d.kind == LKS_JOINT_BALL && d.swing_limit < half_circle_degrees;
     c.twist_limited = (d.kind == LKS_JOINT_BALL || d.kind == LKS_JOINT_HINGE) &&
                       (d.twist_min > -half_circle_degrees || d.twist_max < half_circle_degrees);
-    c.swing = sine_and_cosine(d.swing_limit, world_fraction_bits);
+    c.swing_cosine = sine_and_cosine(d.swing_limit, world_fraction_bits).cosine;
     c.swing_limit = to_radians(d.swing_limit);
     // One fraction bit more is half the angle.
     c.half_min = sine_and_cosine(d.twist_min, world_fraction_bits + 1);
@@ -352,8 +353,7 @@ JointConstants make_joint_constants(const JointDescription& d, const Body& a, co
     c.reach = !a.is_dynamic()   ? reach_of(b)
               : !b.is_dynamic() ? reach_of(a)
                                 : std::min(reach_of(a), reach_of(b));
-    const bool a_greater = c.shares.a == direction_one;
-    const fixed::Scaled greater = inverse_mass(a_greater ? a : b);
+    const fixed::Scaled greater = greater_inverse_mass(c.shares, a, b);
     const fixed::Scaled inverse_h = rate.inverse_h();
     const auto world = [](std::int64_t value) {
         return fixed::Scaled::from_fixed(static_cast<std::uint64_t>(value), world_fraction_bits);

@@ -45,11 +45,13 @@ struct JointDescription {
 // What follows from the description and the bodies' masses.
 struct JointConstants {
     PairShares shares;
+    fixed::Direction axis_a; // of the frames, in the bodies' axes
+    fixed::Direction axis_b;
     bool swing_limited;
     bool twist_limited;
-    SinCos swing;             // of the limit
-    std::int64_t swing_limit; // World, radians
-    SinCos half_min;          // of half the least twist
+    std::int32_t swing_cosine; // of the limit, 30 fraction bits
+    std::int64_t swing_limit;  // World, radians
+    SinCos half_min;           // of half the least twist
     SinCos half_max;
     std::int64_t twist_min; // World, radians
     std::int64_t twist_max;
@@ -62,9 +64,9 @@ struct Joint {
     JointDescription description;
     JointConstants constants;
 
-    // State, for reading out: what it pushed in the last substep, World.
-    fixed::Vec3 push; // from a to b, a length
-    fixed::Vec3 turn; // of b against a, an angle
+    // State: what it pushed in the last substep, World.
+    fixed::Vec3 push; // from a to b, a length; a ball joint begins with it
+    fixed::Vec3 turn; // of b against a, an angle; for reading out
 
     // Of the substep.
     fixed::Vec3 start; // how far the points were apart at its beginning

@@ -159,6 +159,10 @@ Scaled inverse_mass(const Body& body) {
     return Scaled::from_u64(body.inverse_mass.mantissa).times_power_of_two(body.inverse_mass.exponent);
 }
 
+Scaled greater_inverse_mass(const PairShares& shares, const Body& a, const Body& b) {
+    return inverse_mass(shares.a == direction_one ? a : b);
+}
+
 void apply_impulse(Body& body, const Vec3& impulse, const Vec3& lever) {
     if (!body.is_dynamic()) {
         return;

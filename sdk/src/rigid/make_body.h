@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rigid/body.h"
+#include "rigid/pair.h"
 
 namespace lks {
 
@@ -20,6 +21,8 @@ void place_body(Body& body, const BodyDescription& description, const fixed::Vec
 fixed::Vec3 frame_position(const Body& body, const BodyDescription& description);
 
 fixed::Scaled inverse_mass(const Body& body);
+// What the shares of two bodies are shares of.
+fixed::Scaled greater_inverse_mass(const PairShares& shares, const Body& a, const Body& b);
 // N·s at a lever from the centre of mass, world axes.
 void apply_impulse(Body& body, const fixed::Vec3& impulse, const fixed::Vec3& lever);
 fixed::Scaled kinetic_energy(const Body& body, const BodyDescription& description);

@@ -33,7 +33,6 @@ public:
 
     void clear() { boxes_.clear(); }
     void add(const Box& box) { boxes_.push_reserved(box); }
-    const Box& box(std::uint32_t index) const { return boxes_[index]; }
     // Calls use(i, j) for each overlapping pair, i < j, in an order that depends on the boxes only.
     template <typename Use>
     void for_each_pair(const Use& use) {

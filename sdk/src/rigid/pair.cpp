@@ -90,11 +90,33 @@ UnitLever to_unit(const Body& body, const Vec3& lever) {
             body.inverse_shift + longer - body.scale - (wanted - weight_shift) - 1};
 }
 
+// Of a turn about an axis: Ĵ is in 1/(2^scale m)².
+std::int32_t turning_shift(const Body& body, int reach) {
+    return std::min(body.inverse_shift + 2 * (reach - body.scale), greatest_weight_shift);
+}
+
 // share · quadratic form · 2^shift
 std::int64_t turning_weight(std::int32_t share, const Direction& turn, const Direction& arm, int shift) {
     const std::int64_t form =
         (std::int64_t{turn.x} * arm.x + std::int64_t{turn.y} * arm.y + std::int64_t{turn.z} * arm.z) >> 30;
     return shifted((form * share) >> 30, shift);
+}
+
+// What a push of p does to the body, 33 fraction bits.
+Vec3 half_turn_of(const RowSide& side, std::int64_t p, int sign) {
+    const std::int64_t own = sign * fixed::scale_component(side.share, p);
+    const int shift = side.turn_shift + half_turn_bits - world_fraction_bits;
+    const auto part = [&](std::int32_t c) { return shifted(fixed::scale_component(c, own), shift); };
+    return {part(side.turn.x), part(side.turn.y), part(side.turn.z)};
+}
+
+// Δθ/2 = share · Ĵ · p · 2^shift.
+void turn_by(Body& body, std::int32_t share, int shift, const Vec3& p, int sign) {
+    const Vec3 turned = multiply(body.world_inverse, p);
+    const auto part = [&](std::int64_t c) {
+        return shifted(sign * fixed::scale_component(share, c), shift + half_turn_bits - world_fraction_bits);
+    };
+    turn_body(body, {part(turned.x), part(turned.y), part(turned.z)});
 }
 
 } // namespace
@@ -130,9 +152,8 @@ RowSide push_side(const Body& body, std::int32_t share, const Direction& normal,
     const UnitLever unit = to_unit(body, lever);
     const Direction arm = narrow_cross(unit.lever, normal);
     side.turn = multiply_direction(body.world_inverse, arm);
-    side.weight_shift = unit.weight_shift;
     side.turn_shift = unit.turn_shift;
-    weight += share + turning_weight(share, side.turn, arm, side.weight_shift);
+    weight += share + turning_weight(share, side.turn, arm, unit.weight_shift);
     return side;
 }
 
@@ -144,7 +165,6 @@ BlockSide block_side(const Body& body, std::int32_t share, const Vec3& lever, st
     }
     const UnitLever unit = to_unit(body, lever);
     side.lever = unit.lever;
-    side.weight_shift = unit.weight_shift;
     side.turn_shift = unit.turn_shift;
     Direction arms[3];
     Direction turns[3];
@@ -155,7 +175,7 @@ BlockSide block_side(const Body& body, std::int32_t share, const Vec3& lever, st
     int entry = 0;
     for (int i = 0; i < 3; ++i) {
         for (int j = i; j < 3; ++j) {
-            k[entry++] += (i == j ? share : 0) + turning_weight(share, turns[i], arms[j], side.weight_shift);
+            k[entry++] += (i == j ? share : 0) + turning_weight(share, turns[i], arms[j], unit.weight_shift);
         }
     }
     return side;
@@ -169,10 +189,9 @@ RowSide turn_side(const Body& body, std::int32_t share, const Direction& axis, i
         return side;
     }
     side.turn = multiply_direction(body.world_inverse, axis);
-    // Ĵ is in 1/(2^scale m)².
-    side.weight_shift = std::min(body.inverse_shift + 2 * (reach - body.scale), greatest_weight_shift);
-    side.turn_shift = side.weight_shift - 1;
-    weight += turning_weight(share, side.turn, axis, side.weight_shift);
+    const std::int32_t shift = turning_shift(body, reach);
+    side.turn_shift = shift - 1;
+    weight += turning_weight(share, side.turn, axis, shift);
     return side;
 }
 
@@ -201,21 +220,13 @@ void turn_body(Body& body, const Vec3& half_turn_33) {
 }
 
 void turn(Body& body, const RowSide& side, std::int64_t p, int sign) {
-    if (side.share == 0) {
-        return;
+    if (side.share != 0) {
+        turn_body(body, half_turn_of(side, p, sign));
     }
-    const std::int64_t own = sign * fixed::scale_component(side.share, p);
-    const int shift = side.turn_shift + half_turn_bits - world_fraction_bits;
-    const auto part = [&](std::int32_t c) { return shifted(fixed::scale_component(c, own), shift); };
-    turn_body(body, {part(side.turn.x), part(side.turn.y), part(side.turn.z)});
 }
 
-void turn(Body& body, std::int32_t share, int shift, const Vec3& p, int sign) {
-    const Vec3 turned = multiply(body.world_inverse, p);
-    const auto part = [&](std::int64_t c) {
-        return shifted(sign * fixed::scale_component(share, c), shift + half_turn_bits - world_fraction_bits);
-    };
-    turn_body(body, {part(turned.x), part(turned.y), part(turned.z)});
+void turn(Body& body, std::int32_t share, int reach, const Vec3& p, int sign) {
+    turn_by(body, share, turning_shift(body, reach) - 1, p, sign);
 }
 
 void push(Body& body, const BlockSide& side, const Vec3& p, int sign) {
@@ -227,7 +238,7 @@ void push(Body& body, const BlockSide& side, const Vec3& p, int sign) {
     const Direction& r = side.lever;
     const Vec3 arm{fixed::dot_components(0, -r.z, r.y, p), fixed::dot_components(r.z, 0, -r.x, p),
                    fixed::dot_components(-r.y, r.x, 0, p)};
-    turn(body, side.share, side.turn_shift, arm, sign);
+    turn_by(body, side.share, side.turn_shift, arm, sign);
 }
 
 void accelerate(Body& body, const RowSide& side, const Direction& normal, std::int64_t p, int sign) {
@@ -247,12 +258,9 @@ void add_push(Move& move, const RowSide& side, const Vec3& p_normal, std::int64_
     if (side.share == 0) {
         return;
     }
-    const std::int64_t own = sign * fixed::scale_component(side.share, p);
-    const int shift = side.turn_shift + half_turn_bits - world_fraction_bits;
     const auto moved = [&](std::int64_t c) { return sign * fixed::scale_component(side.share, c); };
-    const auto turned = [&](std::int32_t c) { return shifted(fixed::scale_component(c, own), shift); };
     move.shift = move.shift + Vec3{moved(p_normal.x), moved(p_normal.y), moved(p_normal.z)};
-    move.half_turn = move.half_turn + Vec3{turned(side.turn.x), turned(side.turn.y), turned(side.turn.z)};
+    move.half_turn = move.half_turn + half_turn_of(side, p, sign);
 }
 
 void apply(Body& body, const Move& move) {

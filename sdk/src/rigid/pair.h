@@ -45,8 +45,7 @@ std::int64_t divide(std::int64_t value, const Inverse& inverse);
 struct RowSide {
     fixed::Direction turn; // Ĵ(r̂×n), or Ĵn
     std::int32_t share;
-    std::int32_t weight_shift; // the quadratic form is turn · (r̂×n) · 2^weight_shift
-    std::int32_t turn_shift;   // Δθ/2 = share · p · turn · 2^turn_shift
+    std::int32_t turn_shift; // Δθ/2 = share · p · turn · 2^turn_shift
 };
 
 // A push along `normal` at `lever` (World, from the centre of mass, world axes).
@@ -60,7 +59,6 @@ RowSide turn_side(const Body& body, std::int32_t share, const fixed::Direction& 
 struct BlockSide {
     fixed::Direction lever; // in units of the body, 30 fraction bits
     std::int32_t share;
-    std::int32_t weight_shift;
     std::int32_t turn_shift;
 };
 
@@ -68,8 +66,8 @@ struct BlockSide {
 BlockSide block_side(const Body& body, std::int32_t share, const fixed::Vec3& lever, std::int64_t (&k)[6]);
 // By a push (World).
 void push(Body& body, const BlockSide& side, const fixed::Vec3& p, int sign);
-// By a turning push (World): Δθ = share · Ĵ · p · 2^shift.
-void turn(Body& body, std::int32_t share, int shift, const fixed::Vec3& p, int sign);
+// By a turning push (World) with the reach of turn_side.
+void turn(Body& body, std::int32_t share, int reach, const fixed::Vec3& p, int sign);
 
 // What several rows at once do to a body: added up, and then applied together.
 struct Move {

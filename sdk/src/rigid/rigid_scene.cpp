@@ -42,15 +42,11 @@ void RigidScene::forget_contacts(std::uint32_t other) {
             memories[kept++] = memories[i];
         }
     }
-    while (memories.size() > kept) {
-        memories.erase(memories.size() - 1);
-    }
+    static_cast<void>(memories.resize(kept)); // never grows
 }
 
 void RigidScene::free_joint(std::uint32_t index) {
-    JointSlot& slot = joint_slots[index];
-    slot.used = false;
-    slot.generation = slot.generation == UINT32_MAX ? 1 : slot.generation + 1;
+    free_slot(joint_slots[index]);
     joints[index] = Joint{};
 }
 

@@ -9,18 +9,9 @@
 #include "rigid/contact.h"
 #include "rigid/joint.h"
 #include "rigid/overlaps.h"
+#include "solver/slot.h"
 
 namespace lks {
-
-struct BodySlot {
-    std::uint32_t generation;
-    bool used;
-};
-
-struct JointSlot {
-    std::uint32_t generation;
-    bool used;
-};
 
 // What a contact hands on to the next tick. State: kept in ascending order of keys, and only where something
 // pushes.
@@ -36,10 +27,10 @@ struct RigidScene {
     RigidScene& operator=(const RigidScene&) = delete;
 
     // State, by slot.
-    Array<BodySlot> body_slots;
+    Array<Slot> body_slots;
     Array<Body> bodies;
     Array<BodyDescription> descriptions;
-    Array<JointSlot> joint_slots;
+    Array<Slot> joint_slots;
     Array<Joint> joints;
     Array<ContactMemory> memories;
 

@@ -68,8 +68,7 @@ private:
     // Nobody is awake, and nothing is on its way to wake anybody.
     bool anything_moves() const {
         for (const Body& body : scene_.bodies) {
-            if (body.is_awake() || (!body.is_dynamic() && !(body.velocity == fixed::Vec3{0, 0, 0} &&
-                                                            body.angular_velocity == fixed::Vec3{0, 0, 0}))) {
+            if (body.is_active()) {
                 return true;
             }
         }

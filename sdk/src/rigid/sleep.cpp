@@ -13,10 +13,6 @@ constexpr std::int64_t still_distance = (std::int64_t{1} << world_fraction_bits)
 // Half turns: two degrees.
 constexpr std::int64_t still_turn = turn_one / 57;
 
-bool moves(const Body& body) {
-    return !(body.velocity == Vec3{0, 0, 0}) || !(body.angular_velocity == Vec3{0, 0, 0});
-}
-
 // The bodies of an island point to the least index in it.
 class Islands {
 public:
@@ -71,7 +67,7 @@ void for_each_disturbed(const lks_world& world, const Use& use) {
             return index < world.colliders.size() && world.colliders[index].used &&
                    world.colliders[index].collider.moves();
         }
-        return !scene.bodies[other].is_dynamic() && moves(scene.bodies[other]);
+        return !scene.bodies[other].is_dynamic() && scene.bodies[other].is_moving();
     };
     const auto look = [&](std::uint32_t a, std::uint32_t other) {
         if (scene.bodies[a].is_dynamic() && disturbs(other)) {

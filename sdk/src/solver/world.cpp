@@ -50,8 +50,7 @@ Object* lks_world::find_object(lks_object_id id) const {
 }
 
 const lks::ColliderState* lks_world::find_collider(lks_collider_id id) const {
-    if (id.generation == 0 || id.index >= colliders.size() || !colliders[id.index].used ||
-        colliders[id.index].generation != id.generation) {
+    if (!lks::names_used(colliders, id)) {
         return nullptr;
     }
     return &colliders[id.index].collider;
@@ -67,13 +66,11 @@ lks_result lks_world::stale_collider(lks_collider_id id) const {
 }
 
 bool lks_world::has_body(lks_body_id id) const {
-    return id.generation != 0 && id.index < rigid.body_slots.size() && rigid.body_slots[id.index].used &&
-           rigid.body_slots[id.index].generation == id.generation;
+    return lks::names_used(rigid.body_slots, id);
 }
 
 bool lks_world::has_joint(lks_joint_id id) const {
-    return id.generation != 0 && id.index < rigid.joint_slots.size() && rigid.joint_slots[id.index].used &&
-           rigid.joint_slots[id.index].generation == id.generation;
+    return lks::names_used(rigid.joint_slots, id);
 }
 
 bool lks_world::reserve_colliders(std::size_t count) {
@@ -147,7 +144,7 @@ void free_object_slot(lks_world& world, std::uint32_t index) {
     ObjectSlot& slot = world.objects[index];
     world.destroy_object(slot.object);
     slot.object = nullptr;
-    slot.generation = slot.generation == UINT32_MAX ? 1 : slot.generation + 1;
+    slot.generation = next_generation(slot.generation);
 }
 
 } // namespace lks

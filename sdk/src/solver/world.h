@@ -14,6 +14,7 @@
 #include "memory/array.h"
 #include "rigid/rigid_scene.h"
 #include "solver/object.h"
+#include "solver/slot.h"
 #include "solver/step_rate.h"
 #include "solver/tick_scratch.h"
 #include "threads/helpers.h"

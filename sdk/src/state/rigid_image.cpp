@@ -179,10 +179,10 @@ RigidCounts rigid_counts(const RigidScene& scene) {
 std::size_t rigid_image_size(const RigidScene& scene) {
     std::size_t size =
         (scene.bodies.size() + scene.joints.size()) * slot_size + scene.memories.size() * memory_size;
-    for (const BodySlot& slot : scene.body_slots) {
+    for (const Slot& slot : scene.body_slots) {
         size += slot.used ? body_size : 0;
     }
-    for (const JointSlot& slot : scene.joint_slots) {
+    for (const Slot& slot : scene.joint_slots) {
         size += slot.used ? joint_size : 0;
     }
     return size;
@@ -265,7 +265,7 @@ void read_rigid(ByteReader& in, const RigidCounts& counts, const StepRate& rate,
     for (std::uint32_t i = 0; i < counts.bodies; ++i) {
         const std::uint32_t generation = in.u32();
         const bool used = in.u32() != 0;
-        scene.body_slots.push_reserved(BodySlot{generation, used});
+        scene.body_slots.push_reserved(Slot{generation, used});
         Body body{};
         BodyDescription description{};
         if (used) {
@@ -286,7 +286,7 @@ void read_rigid(ByteReader& in, const RigidCounts& counts, const StepRate& rate,
     for (std::uint32_t i = 0; i < counts.joints; ++i) {
         const std::uint32_t generation = in.u32();
         const bool used = in.u32() != 0;
-        scene.joint_slots.push_reserved(JointSlot{generation, used});
+        scene.joint_slots.push_reserved(Slot{generation, used});
         Joint joint{};
         if (used) {
             joint_fields(reading, joint);
