@@ -125,20 +125,26 @@ private:
     }
 
     bool add_collider(const ColliderLook& collider) {
-        render::Shape& shape = frame_.shapes.emplace_back();
-        shape.kind = shape_kind(collider.shape);
-        shape.radius = collider.radius;
-        shape.half_length = collider.half_length;
-        shape.half_extents = glm::make_vec3(collider.half_extents);
-        shape.colour = colour(collider.colour);
-        shape.marking = collider.marking;
         float matrix[16];
         if (lks_collider_write_matrix(scene_.world(), collider.id, interpolation_, scene_.offset(), matrix) !=
             LKS_OK) {
             return false;
         }
-        shape.matrix = glm::make_mat4(matrix);
+        add_shape(collider, glm::make_mat4(matrix), collider.colour, collider.marking);
         return true;
+    }
+
+    // A collider, or a shape of a body.
+    template <typename Look>
+    void add_shape(const Look& look, const glm::mat4& matrix, lks_demo::Rgb rgb, float marking) {
+        render::Shape& shape = frame_.shapes.emplace_back();
+        shape.kind = shape_kind(look.shape);
+        shape.radius = look.radius;
+        shape.half_length = look.half_length;
+        shape.half_extents = glm::make_vec3(look.half_extents);
+        shape.matrix = matrix;
+        shape.colour = colour(rgb);
+        shape.marking = marking;
     }
 
     bool add_body(const lks_demo::BodyLook& body) {
@@ -147,18 +153,12 @@ private:
             LKS_OK) {
             return false;
         }
-        for (const lks_demo::BodyShapeLook& from : body.shapes) {
-            render::Shape& shape = frame_.shapes.emplace_back();
-            shape.kind = shape_kind(from.shape);
-            shape.radius = from.radius;
-            shape.half_length = from.half_length;
-            shape.half_extents = glm::make_vec3(from.half_extents);
-            shape.colour = colour(body.colour);
-            shape.marking = body.marking;
-            const glm::quat rotation(from.rotation[3], from.rotation[0], from.rotation[1], from.rotation[2]);
-            shape.matrix = glm::make_mat4(matrix) *
-                           glm::translate(glm::mat4(1.0f), glm::make_vec3(from.position)) *
-                           glm::mat4_cast(rotation);
+        for (const lks_demo::BodyShapeLook& shape : body.shapes) {
+            const glm::quat rotation(shape.rotation[3], shape.rotation[0], shape.rotation[1],
+                                     shape.rotation[2]);
+            const glm::mat4 in_body =
+                glm::translate(glm::mat4(1.0f), glm::make_vec3(shape.position)) * glm::mat4_cast(rotation);
+            add_shape(shape, glm::make_mat4(matrix) * in_body, body.colour, body.marking);
         }
         return true;
     }

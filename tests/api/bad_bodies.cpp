@@ -163,34 +163,28 @@ TEST_CASE("joints out of range, between the same or two kinematic bodies, are re
 
 TEST_CASE("ragdolls with trees that are none are refused whole") {
     World world;
-    lks_bone bones[LKS_HUMANOID_BONES];
-    lks_body_shape shapes[LKS_HUMANOID_BONES];
-    const auto check = [&](const std::function<void(lks_ragdoll_def&)>& change, const char* value,
+    const auto check = [&](const std::function<void(Humanoid&)>& change, const char* value,
                            lks_result expected = LKS_ERROR_INVALID_ARGUMENT) {
-        REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
-        lks_ragdoll_def def = lks_default_ragdoll_def();
-        def.bones = bones;
-        def.bone_count = LKS_HUMANOID_BONES;
-        change(def);
-        lks_body_id ids[LKS_HUMANOID_BONES];
+        Humanoid humanoid;
+        change(humanoid);
         const std::uint64_t hash = world.hash();
-        check_refused(world, lks_world_add_ragdoll(world, &def, ids, nullptr), expected, value, hash);
+        check_refused(world, humanoid.add(world), expected, value, hash);
         CHECK(lks_world_body_count(world) == 0);
     };
-    check([&](lks_ragdoll_def&) { bones[3].parent = 5; }, "bone 3");
-    check([&](lks_ragdoll_def&) { bones[3].parent = 3; }, "parent 3");
-    check([&](lks_ragdoll_def&) { bones[0].parent = 1; }, "root");
-    check([&](lks_ragdoll_def&) { bones[4].parent = LKS_NO_PARENT; }, "bone 4");
-    check([&](lks_ragdoll_def&) { bones[4].joint_kind = LKS_JOINT_DISTANCE; }, "kind 3");
-    check([&](lks_ragdoll_def&) { bones[14].twist_min = fixed(90); }, "twist_min 90");
-    check([&](lks_ragdoll_def&) { shapes[7].radius = 0; }, "radius 0");
-    check([&](lks_ragdoll_def&) { bones[7].body.shapes = nullptr; }, "null", LKS_ERROR_NULL_ARGUMENT);
-    check([&](lks_ragdoll_def& d) { d.bone_count = 0; }, "0 bones");
-    check([&](lks_ragdoll_def& d) { d.bone_count = 300; }, "300 bones");
-    check([&](lks_ragdoll_def& d) { d.scale = fixed(0.01); }, "0.01");
-    check([&](lks_ragdoll_def& d) { d.scale = fixed(25); }, "25");
-    check([&](lks_ragdoll_def& d) { d.transform.rotation.w = 1; }, "quaternion");
-    check([&](lks_ragdoll_def& d) { d.struct_size = 3; }, "3", LKS_ERROR_STRUCT_SIZE);
+    check([](Humanoid& h) { h.bones[3].parent = 5; }, "bone 3");
+    check([](Humanoid& h) { h.bones[3].parent = 3; }, "parent 3");
+    check([](Humanoid& h) { h.bones[0].parent = 1; }, "root");
+    check([](Humanoid& h) { h.bones[4].parent = LKS_NO_PARENT; }, "bone 4");
+    check([](Humanoid& h) { h.bones[4].joint_kind = LKS_JOINT_DISTANCE; }, "kind 3");
+    check([](Humanoid& h) { h.bones[14].twist_min = fixed(90); }, "twist_min 90");
+    check([](Humanoid& h) { h.shapes[7].radius = 0; }, "radius 0");
+    check([](Humanoid& h) { h.bones[7].body.shapes = nullptr; }, "null", LKS_ERROR_NULL_ARGUMENT);
+    check([](Humanoid& h) { h.def.bone_count = 0; }, "0 bones");
+    check([](Humanoid& h) { h.def.bone_count = 300; }, "300 bones");
+    check([](Humanoid& h) { h.def.scale = fixed(0.01); }, "0.01");
+    check([](Humanoid& h) { h.def.scale = fixed(25); }, "25");
+    check([](Humanoid& h) { h.def.transform.rotation.w = 1; }, "quaternion");
+    check([](Humanoid& h) { h.def.struct_size = 3; }, "3", LKS_ERROR_STRUCT_SIZE);
 }
 
 TEST_CASE("what is hard but allowed ends where it can") {

@@ -16,15 +16,9 @@ lks_world_def settings(Allocator& allocator) {
 
 // Humanoids that fall onto each other and onto a ground: contacts come and go.
 void add_humanoid(const World& world, double height) {
-    lks_bone bones[LKS_HUMANOID_BONES];
-    lks_body_shape shapes[LKS_HUMANOID_BONES];
-    REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
-    lks_ragdoll_def def = lks_default_ragdoll_def();
-    def.bones = bones;
-    def.bone_count = LKS_HUMANOID_BONES;
-    def.transform.position = fixed(0.1 * height, height, 0);
-    lks_body_id bodies[LKS_HUMANOID_BONES];
-    REQUIRE(lks_world_add_ragdoll(world, &def, bodies, nullptr) == LKS_OK);
+    Humanoid humanoid;
+    humanoid.def.transform.position = fixed(0.1 * height, height, 0);
+    REQUIRE(humanoid.add(world) == LKS_OK);
 }
 
 } // namespace
@@ -76,14 +70,8 @@ TEST_CASE("bodies, joints and ragdolls that can't be added for lack of memory ch
         const lks_body_id second = add_body(world, ball_shape(0.1), fixed(1, 0, 0));
         const std::uint64_t hash = world.hash();
         allocator.fail_after(countdown);
-        lks_bone bones[LKS_HUMANOID_BONES];
-        lks_body_shape shapes[LKS_HUMANOID_BONES];
-        REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
-        lks_ragdoll_def def = lks_default_ragdoll_def();
-        def.bones = bones;
-        def.bone_count = LKS_HUMANOID_BONES;
-        lks_body_id bodies[LKS_HUMANOID_BONES];
-        const lks_result result = lks_world_add_ragdoll(world, &def, bodies, nullptr);
+        const Humanoid humanoid;
+        const lks_result result = humanoid.add(world);
         CHECK(result == (allocator.refused_any() ? LKS_ERROR_OUT_OF_MEMORY : LKS_OK));
         if (result != LKS_OK) {
             CHECK(world.hash() == hash);
@@ -99,7 +87,7 @@ TEST_CASE("bodies, joints and ragdolls that can't be added for lack of memory ch
             const lks_result joined = lks_world_add_joint(world, &joint, &id);
             allocator.never_fail();
             CHECK((joined == LKS_OK || (joined == LKS_ERROR_OUT_OF_MEMORY && world.hash() == hash)));
-            REQUIRE(lks_world_add_ragdoll(world, &def, bodies, nullptr) == LKS_OK);
+            REQUIRE(humanoid.add(world) == LKS_OK);
             world.step(5);
         } else {
             break;

@@ -57,19 +57,13 @@ private:
     lks_vec3 place(double x, double y, double z) const { return offset_ + fixed(x, y, z); }
 
     void add_humanoids() {
-        lks_bone bones[LKS_HUMANOID_BONES];
-        lks_body_shape shapes[LKS_HUMANOID_BONES];
-        REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
         for (int i = 0; i < 2; ++i) {
-            lks_ragdoll_def def = lks_default_ragdoll_def();
-            def.bones = bones;
-            def.bone_count = LKS_HUMANOID_BONES;
-            def.transform.position = place(0.1 + 0.2 * i, 0.5 + 0.7 * i, 0.1 - 0.2 * i);
-            REQUIRE(lks_rotation_from_axis_angle(1, 0.2, 0.1 * i, 60 + 70 * i, &def.transform.rotation) ==
-                    LKS_OK);
-            def.scale = fixed(1 - 0.3 * i);
-            lks_body_id ids[LKS_HUMANOID_BONES];
-            REQUIRE(lks_world_add_ragdoll(world, &def, ids, nullptr) == LKS_OK);
+            Humanoid humanoid;
+            lks_transform& place_of = humanoid.def.transform;
+            place_of.position = place(0.1 + 0.2 * i, 0.5 + 0.7 * i, 0.1 - 0.2 * i);
+            REQUIRE(lks_rotation_from_axis_angle(1, 0.2, 0.1 * i, 60 + 70 * i, &place_of.rotation) == LKS_OK);
+            humanoid.def.scale = fixed(1 - 0.3 * i);
+            REQUIRE(humanoid.add(world) == LKS_OK);
         }
     }
 

@@ -136,14 +136,7 @@ TEST_CASE("what moves by itself wakes whom it touches") {
 TEST_CASE("a ragdoll on the ground falls asleep; one that must not sleep, and what it touches, does not") {
     World world(world_def(60, 8));
     add_ground(world);
-    lks_bone bones[LKS_HUMANOID_BONES];
-    lks_body_shape shapes[LKS_HUMANOID_BONES];
-    REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
-    lks_ragdoll_def def = lks_default_ragdoll_def();
-    def.bones = bones;
-    def.bone_count = LKS_HUMANOID_BONES;
-    lks_body_id ids[LKS_HUMANOID_BONES];
-    REQUIRE(lks_world_add_ragdoll(world, &def, ids, nullptr) == LKS_OK);
+    REQUIRE(Humanoid().add(world) == LKS_OK);
     world.step(600);
     CHECK(lks_world_awake_body_count(world) == 0);
     lks_body_def restless = lks_default_body_def();

@@ -57,6 +57,26 @@ inline lks_joint_id add_joint(const World& world, lks_joint_def def, lks_body_id
     return id;
 }
 
+// The humanoid of lockstitch/ragdoll.h, for tests that put it somewhere or break it.
+struct Humanoid {
+    Humanoid() {
+        REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
+        def.bones = bones;
+        def.bone_count = LKS_HUMANOID_BONES;
+    }
+    Humanoid(const Humanoid&) = delete;
+    Humanoid& operator=(const Humanoid&) = delete;
+
+    lks_result add(const World& world) const {
+        lks_body_id bodies[LKS_HUMANOID_BONES];
+        return lks_world_add_ragdoll(world, &def, bodies, nullptr);
+    }
+
+    lks_bone bones[LKS_HUMANOID_BONES];
+    lks_body_shape shapes[LKS_HUMANOID_BONES];
+    lks_ragdoll_def def = lks_default_ragdoll_def();
+};
+
 inline void add_ground(World& world, double friction = 0.5, const lks_rotation* rotation = nullptr) {
     lks_collider_def def = lks_default_collider_def();
     def.shape = LKS_SHAPE_PLANE;

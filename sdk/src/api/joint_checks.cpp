@@ -8,19 +8,6 @@ namespace {
 constexpr lks_fixed half_circle = LKS_FIXED(180);
 constexpr lks_fixed greatest_length = LKS_FIXED(64);
 
-lks_result check_ranges(const lks_world& world, const lks_joint_def& def) {
-    const Number numbers[] = {
-        {"swing_limit", " degrees", def.swing_limit, 0, half_circle},
-        {"twist_max", " degrees", def.twist_max, -half_circle, half_circle},
-        {"twist_min", " degrees", def.twist_min, -half_circle, def.twist_max},
-        {"distance_max", " m", def.distance_max, 0, greatest_length},
-        {"distance_min", " m", def.distance_min, 0, def.distance_max},
-        {"joint's compliance", " m/N", def.compliance, 0, LKS_FIXED(1000)},
-        {"joint's friction", " N·m", def.friction, 0, LKS_FIXED(1000000)},
-    };
-    return check_numbers(world, numbers);
-}
-
 lks_result check_bodies(const lks_world& world, const lks_joint_def& def) {
     for (const lks_body_id& body : {def.body_a, def.body_b}) {
         if (const lks_result result = require_body(&world, body); result != LKS_OK) {
@@ -44,7 +31,7 @@ lks_result check_bodies(const lks_world& world, const lks_joint_def& def) {
 
 } // namespace
 
-lks_result check_joint_def(const lks_world& world, const lks_joint_def& def) {
+lks_result check_joint_ranges(const lks_world& world, const lks_joint_def& def) {
     if (def.kind > LKS_JOINT_DISTANCE) {
         return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "Joint kind " << def.kind
                                                                  << " does not exist: the kinds are 0 to 3.");
@@ -55,7 +42,25 @@ lks_result check_joint_def(const lks_world& world, const lks_joint_def& def) {
                                                           << def.bodies_collide << " and its reserved field "
                                                           << def.reserved << "; they must be 0 or 1, and 0.");
     }
-    if (const lks_result result = check_bodies(world, def); result != LKS_OK) {
+    for (const lks_transform& frame : {def.frame_a, def.frame_b}) {
+        if (const lks_result result = check_rotation(world, frame.rotation); result != LKS_OK) {
+            return result;
+        }
+    }
+    const Number numbers[] = {
+        {"swing_limit", " degrees", def.swing_limit, 0, half_circle},
+        {"twist_max", " degrees", def.twist_max, -half_circle, half_circle},
+        {"twist_min", " degrees", def.twist_min, -half_circle, def.twist_max},
+        {"distance_max", " m", def.distance_max, 0, greatest_length},
+        {"distance_min", " m", def.distance_min, 0, def.distance_max},
+        {"joint's compliance", " m/N", def.compliance, 0, LKS_FIXED(1000)},
+        {"joint's friction", " N·m", def.friction, 0, LKS_FIXED(1000000)},
+    };
+    return check_numbers(world, numbers);
+}
+
+lks_result check_joint_def(const lks_world& world, const lks_joint_def& def) {
+    if (const lks_result result = check_joint_ranges(world, def); result != LKS_OK) {
         return result;
     }
     for (const lks_transform& frame : {def.frame_a, def.frame_b}) {
@@ -63,11 +68,8 @@ lks_result check_joint_def(const lks_world& world, const lks_joint_def& def) {
             return world.fail(LKS_ERROR_INVALID_ARGUMENT,
                               out_of_range("joint's point", frame.position, "m", greatest_length));
         }
-        if (const lks_result result = check_rotation(world, frame.rotation); result != LKS_OK) {
-            return result;
-        }
     }
-    return check_ranges(world, def);
+    return check_bodies(world, def);
 }
 
 lks_result require_joint(const lks_world* world, lks_joint_id id) {

@@ -2,6 +2,7 @@
 #include <lockstitch/ragdoll.h>
 
 #include "api/body_checks.h"
+#include "api/joint_checks.h"
 #include "fixed/formats.h"
 
 using namespace lks;
@@ -114,15 +115,6 @@ lks_result check_bone(const lks_world& world, const lks_ragdoll_def& def, std::u
     return check_body_def(world, make_body_def(def, bone, Placement(def), shapes));
 }
 
-lks_result check_limits(const lks_world& world, const lks_bone& bone) {
-    constexpr lks_fixed half_circle = LKS_FIXED(180);
-    return check_numbers(world,
-                         {Number{"swing_limit", " degrees", bone.swing_limit, 0, half_circle},
-                          Number{"twist_max", " degrees", bone.twist_max, -half_circle, half_circle},
-                          Number{"twist_min", " degrees", bone.twist_min, -half_circle, bone.twist_max},
-                          Number{"friction", " N·m", bone.friction, 0, LKS_FIXED(1000000)}});
-}
-
 lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
     if (def.struct_size != sizeof(lks_ragdoll_def)) {
         return world.fail(LKS_ERROR_STRUCT_SIZE,
@@ -146,7 +138,9 @@ lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
         if (const lks_result result = check_bone(world, def, i); result != LKS_OK) {
             return result;
         }
-        if (const lks_result result = check_limits(world, def.bones[i]); i > 0 && result != LKS_OK) {
+        const lks_transform here{{0, 0, 0}, {0, 0, 0, LKS_ROTATION_ONE}};
+        const lks_joint_def joint = make_joint_def(def.bones[i], Placement(def), here, here);
+        if (const lks_result result = i > 0 ? check_joint_ranges(world, joint) : LKS_OK; result != LKS_OK) {
             return result;
         }
     }

@@ -333,6 +333,24 @@ JointAngles joint_angles(const Joint& joint, const Body& a, const Body& b) {
     return {fixed::angle_of(apart ? way.length : 0, fixed::dot(u, v)), 2 * fixed::angle_of(q.y, q.w)};
 }
 
+lks_joint_def define_joint(const JointDescription& d) {
+    const auto rotation = [](const fixed::Rotation& q) { return lks_rotation{q.x, q.y, q.z, q.w}; };
+    lks_joint_def def{};
+    def.struct_size = sizeof(lks_joint_def);
+    def.kind = d.kind;
+    def.frame_a.rotation = rotation(d.frame_a);
+    def.frame_b.rotation = rotation(d.frame_b);
+    def.bodies_collide = d.bodies_collide;
+    def.swing_limit = d.swing_limit;
+    def.twist_min = d.twist_min;
+    def.twist_max = d.twist_max;
+    def.distance_min = d.distance_min;
+    def.distance_max = d.distance_max;
+    def.compliance = d.compliance;
+    def.friction = d.friction;
+    return def;
+}
+
 JointConstants make_joint_constants(const JointDescription& d, const Body& a, const Body& b,
                                     const StepRate& rate) {
     JointConstants c{};

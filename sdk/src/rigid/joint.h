@@ -77,6 +77,8 @@ struct Joint {
     std::int32_t inverse_shift;
 };
 
+// The definition that a description came from, without bodies and points.
+lks_joint_def define_joint(const JointDescription& description);
 JointConstants make_joint_constants(const JointDescription& description, const Body& a, const Body& b,
                                     const StepRate& rate);
 

@@ -25,6 +25,7 @@ public:
         if (!anything_moves()) {
             return;
         }
+        prepare();
         find_contacts(world_);
         // Those that it has woken, too.
         for (Body& body : scene_.bodies) {
@@ -81,12 +82,7 @@ private:
     }
 
     void begin() {
-        place_collider_bodies(world_);
-        scene_.ticks.clear();
-        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-            Body& body = scene_.bodies[i];
-            scene_.ticks.push_reserved(
-                used(i) ? make_body_tick(scene_.descriptions[i], world_.rate, world_.gravity) : BodyTick{});
+        for (Body& body : scene_.bodies) {
             body.previous_position = body.position;
             body.previous_rotation = narrow(body.orientation);
             body.tick_position = body.position;
@@ -98,6 +94,16 @@ private:
             if (!body.is_dynamic()) {
                 aim_kinematic(body, rate_, world_.rate.substeps);
             }
+        }
+    }
+
+    // What somebody awake needs.
+    void prepare() {
+        place_collider_bodies(world_);
+        scene_.ticks.clear();
+        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+            scene_.ticks.push_reserved(
+                used(i) ? make_body_tick(scene_.descriptions[i], world_.rate, world_.gravity) : BodyTick{});
         }
     }
 
