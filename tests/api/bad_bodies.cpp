@@ -142,6 +142,12 @@ TEST_CASE("joints out of range, between the same or two kinematic bodies, are re
          "quaternion"},
         {[](lks_joint_def& d) { d.compliance = fixed(-1); }, "compliance -1"},
         {[](lks_joint_def& d) { d.friction = fixed(-1); }, "friction -1"},
+        {[](lks_joint_def& d) { d.swing_limit_z = fixed(181); }, "swing_limit_z 181"},
+        {[](lks_joint_def& d) { d.damping = fixed(-2); }, "damping -2"},
+        {[](lks_joint_def& d) { d.angular_compliance = fixed(1001); }, "angular_compliance 1001"},
+        {[](lks_joint_def& d) { d.angular_damping = fixed(-3); }, "angular_damping -3"},
+        {[](lks_joint_def& d) { d.break_force = fixed(-4); }, "break_force -4"},
+        {[](lks_joint_def& d) { d.break_torque = fixed(-5); }, "break_torque -5"},
         {[](lks_joint_def& d) { d.bodies_collide = 2; }, "2"},
         {[](lks_joint_def& d) { d.struct_size = 1; }, "1", LKS_ERROR_STRUCT_SIZE},
     };
@@ -155,6 +161,23 @@ TEST_CASE("joints out of range, between the same or two kinematic bodies, are re
     }
     const lks_joint_id joint = add_joint(world, lks_default_joint_def(), a, b);
     CHECK(lks_world_joint_count(world) == 1);
+    const auto refuse_motor = [&](const lks_motor& motor, const char* value) {
+        check_refused(world, lks_joint_set_motor(world, joint, &motor), LKS_ERROR_INVALID_ARGUMENT, value,
+                      world.hash());
+    };
+    const lks_rotation none{0, 0, 0, LKS_ROTATION_ONE};
+    refuse_motor({fixed(-1), 0, none}, "max_torque -1");
+    refuse_motor({fixed(1), fixed(101), none}, "response 101");
+    refuse_motor({fixed(1), 0, {0, 0, 0, 0}}, "rotation");
+    CHECK(lks_joint_set_motor(world, joint, nullptr) == LKS_ERROR_NULL_ARGUMENT);
+    CHECK(lks_joint_motor(world, joint, nullptr) == LKS_ERROR_NULL_ARGUMENT);
+    lks_joint_def rigid = lks_default_joint_def();
+    rigid.kind = LKS_JOINT_FIXED;
+    const lks_motor motor{fixed(1), 0, none};
+    const lks_joint_id plain = add_joint(world, rigid, a, b);
+    check_refused(world, lks_joint_set_motor(world, plain, &motor), LKS_ERROR_UNSUPPORTED, "kind 2",
+                  world.hash());
+    REQUIRE(lks_world_remove_joint(world, plain) == LKS_OK);
     REQUIRE(lks_world_remove_body(world, b) == LKS_OK);
     CHECK(lks_world_joint_count(world) == 0);
     CHECK(lks_world_has_joint(world, joint) == 0);

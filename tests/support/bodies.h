@@ -67,9 +67,9 @@ struct Humanoid {
     Humanoid(const Humanoid&) = delete;
     Humanoid& operator=(const Humanoid&) = delete;
 
-    lks_result add(const World& world) const {
+    lks_result add(const World& world, lks_body_id* ids = nullptr, lks_joint_id* joints = nullptr) const {
         lks_body_id bodies[LKS_HUMANOID_BONES];
-        return lks_world_add_ragdoll(world, &def, bodies, nullptr);
+        return lks_world_add_ragdoll(world, &def, ids == nullptr ? bodies : ids, joints);
     }
 
     lks_bone bones[LKS_HUMANOID_BONES];

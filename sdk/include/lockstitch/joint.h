@@ -40,18 +40,34 @@ typedef struct lks_joint_def {
     uint32_t kind;        /* an lks_joint_kind */
     lks_body_id body_a;   /* two different bodies, at least one of them dynamic */
     lks_body_id body_b;
-    lks_transform frame_a;   /* in a's frame; positions within ±64 m */
-    lks_transform frame_b;   /* in b's frame */
-    uint32_t bodies_collide; /* 0: the two bodies don't collide with each other while the joint exists */
-    uint32_t reserved;       /* 0 */
-    lks_fixed swing_limit;   /* degrees, 0 .. 180; 180: none */
-    lks_fixed twist_min;     /* degrees, -180 .. twist_max; -180 and 180: none */
-    lks_fixed twist_max;     /* degrees, twist_min .. 180 */
-    lks_fixed distance_min;  /* metres, 0 .. distance_max */
-    lks_fixed distance_max;  /* metres, distance_min .. 64 */
-    lks_fixed compliance;    /* of the points, m/N, 0 .. 1000 */
-    lks_fixed friction;      /* N·m that resist turning, 0 .. 1000000 */
+    lks_transform frame_a;        /* in a's frame; positions within ±64 m */
+    lks_transform frame_b;        /* in b's frame */
+    uint32_t bodies_collide;      /* 0: the two bodies don't collide with each other while the joint exists */
+    uint32_t reserved;            /* 0 */
+    lks_fixed swing_limit;        /* degrees, 0 .. 180; 180: none */
+    lks_fixed swing_limit_z;      /* degrees, 0 .. 180, where the cone is an ellipse: swing_limit towards the
+                                     frames' local x, this towards local z; negative: as swing_limit */
+    lks_fixed twist_min;          /* degrees, -180 .. twist_max; -180 and 180: none */
+    lks_fixed twist_max;          /* degrees, twist_min .. 180 */
+    lks_fixed distance_min;       /* metres, 0 .. distance_max */
+    lks_fixed distance_max;       /* metres, distance_min .. 64 */
+    lks_fixed compliance;         /* of the points, m/N, 0 .. 1000 */
+    lks_fixed damping;            /* of soft points, N·s/m, 0 .. 1000000 */
+    lks_fixed angular_compliance; /* of what hinges and fixed joints hold, rad/(N·m), 0 .. 1000 */
+    lks_fixed angular_damping;    /* N·m·s: resists turning by its speed, 0 .. 1000000 */
+    lks_fixed friction;           /* N·m that resist turning, 0 .. 1000000 */
+    /* Where the mean of a tick exceeds them, the joint is removed at its end, with an event; 0: never. */
+    lks_fixed break_force;  /* N at the points, 0 .. 8000000 */
+    lks_fixed break_torque; /* N·m, 0 .. 8000000 */
 } lks_joint_def;
+
+/* Turns b's frame against a's towards a target, as fast as its torque allows and no faster than to leave 1/e
+ * of the way after `response`. It holds against any load that its torque can bear. */
+typedef struct lks_motor {
+    lks_fixed max_torque; /* N·m, 0 .. 1000000; 0: off */
+    lks_fixed response;   /* seconds, 0 .. 100; at least a substep */
+    lks_rotation target;  /* of b's frame in a's; of a hinge its turn about the axis counts */
+} lks_motor;
 
 /* A ball joint without limits, at the origins of both bodies, which don't collide. */
 LKS_API lks_joint_def lks_default_joint_def(void);
@@ -70,9 +86,14 @@ LKS_API lks_result lks_joint_error(const lks_world* world, lks_joint_id joint, l
 LKS_API lks_result lks_joint_angles(const lks_world* world, lks_joint_id joint, lks_fixed* swing,
                                     lks_fixed* twist);
 /* What the joint does to body b, in world axes: newtons at the points, and newton metres; the mean over the
- * last substep. a gets the opposite. Saturates at ±8,388,607. Either may be null. */
+ * last tick in which it was awake. a gets the opposite. Saturates at ±8,388,607. Either may be null. */
 LKS_API lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lks_vec3* force,
                                   lks_vec3* torque);
+
+/* Of a ball joint or a hinge. While it is on the joint's friction is not. A motor that differs from the
+ * present one wakes both bodies. */
+LKS_API lks_result lks_joint_set_motor(lks_world* world, lks_joint_id joint, const lks_motor* motor);
+LKS_API lks_result lks_joint_motor(const lks_world* world, lks_joint_id joint, lks_motor* motor);
 
 #ifdef __cplusplus
 }

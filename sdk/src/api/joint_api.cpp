@@ -23,12 +23,19 @@ JointDescription describe(const lks_joint_def& def, const RigidScene& scene) {
     d.frame_a = fixed::normalise(to_rotation(def.frame_a.rotation));
     d.frame_b = fixed::normalise(to_rotation(def.frame_b.rotation));
     d.swing_limit = def.swing_limit;
+    d.swing_limit_z = def.swing_limit_z < 0 ? -1 : def.swing_limit_z;
     d.twist_min = def.twist_min;
     d.twist_max = def.twist_max;
     d.distance_min = def.distance_min;
     d.distance_max = def.distance_max;
     d.compliance = def.compliance;
+    d.damping = def.damping;
+    d.angular_compliance = def.angular_compliance;
+    d.angular_damping = def.angular_damping;
     d.friction = def.friction;
+    d.break_force = def.break_force;
+    d.break_torque = def.break_torque;
+    d.motor_target = fixed::identity_rotation();
     return d;
 }
 
@@ -56,6 +63,24 @@ lks_vec3 times(const fixed::Vec3& v, const fixed::Scaled& factor) {
     return {part(v.x), part(v.y), part(v.z)};
 }
 
+// A checked motor.
+void set_motor(lks_world& world, Joint& joint, const lks_motor& motor) {
+    JointDescription& d = joint.description;
+    const fixed::Rotation target = fixed::normalise(to_rotation(motor.target));
+    if (d.motor_torque == motor.max_torque && d.motor_response == motor.response &&
+        d.motor_target == target) {
+        return;
+    }
+    d.motor_torque = motor.max_torque;
+    d.motor_response = motor.response;
+    d.motor_target = target;
+    Body& a = world.rigid.bodies[d.body_a];
+    Body& b = world.rigid.bodies[d.body_b];
+    joint.constants = make_joint_constants(d, a, b, world.rate);
+    wake(a);
+    wake(b);
+}
+
 } // namespace
 
 extern "C" {
@@ -67,6 +92,7 @@ lks_joint_def lks_default_joint_def(void) {
     def.frame_a.rotation.w = LKS_ROTATION_ONE;
     def.frame_b.rotation.w = LKS_ROTATION_ONE;
     def.swing_limit = LKS_FIXED(180);
+    def.swing_limit_z = -1;
     def.twist_min = -LKS_FIXED(180);
     def.twist_max = LKS_FIXED(180);
     return def;
@@ -173,14 +199,43 @@ lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lks_vec3* 
     const Joint& found = world->rigid.joints[joint.index];
     const JointBodies bodies = bodies_of(*world, found);
     const fixed::Scaled inverse_h = world->rate.inverse_h();
-    const fixed::Scaled factor =
-        inverse_h * inverse_h / greater_inverse_mass(found.constants.shares, bodies.a, bodies.b);
+    const fixed::Scaled factor = inverse_h * inverse_h /
+                                 greater_inverse_mass(found.constants.shares, bodies.a, bodies.b) /
+                                 fixed::Scaled::from_u64(world->rate.substeps);
     if (force != nullptr) {
-        *force = times(found.push, factor);
+        *force = times(found.pushed, factor);
     }
     if (torque != nullptr) {
-        *torque = times(found.turn, factor.times_power_of_two(2 * found.constants.reach));
+        *torque = times(found.turned, factor.times_power_of_two(2 * found.constants.reach));
     }
+    return LKS_OK;
+}
+
+lks_result lks_joint_set_motor(lks_world* world, lks_joint_id joint, const lks_motor* motor) {
+    if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
+        return result;
+    }
+    if (motor == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_joint_set_motor", "motor"));
+    }
+    Joint& found = world->rigid.joints[joint.index];
+    if (const lks_result result = check_motor(*world, found.description.kind, *motor); result != LKS_OK) {
+        return result;
+    }
+    set_motor(*world, found, *motor);
+    return LKS_OK;
+}
+
+lks_result lks_joint_motor(const lks_world* world, lks_joint_id joint, lks_motor* motor) {
+    if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
+        return result;
+    }
+    if (motor == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_joint_motor", "motor"));
+    }
+    const JointDescription& d = world->rigid.joints[joint.index].description;
+    const fixed::Rotation& q = d.motor_target;
+    *motor = {d.motor_torque, d.motor_response, {q.x, q.y, q.z, q.w}};
     return LKS_OK;
 }
 

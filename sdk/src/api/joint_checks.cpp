@@ -1,5 +1,7 @@
 #include "api/joint_checks.h"
 
+#include <algorithm>
+
 #include "api/body_checks.h"
 
 namespace lks {
@@ -49,12 +51,18 @@ lks_result check_joint_ranges(const lks_world& world, const lks_joint_def& def) 
     }
     const Number numbers[] = {
         {"swing_limit", " degrees", def.swing_limit, 0, half_circle},
+        {"swing_limit_z", " degrees", std::max<lks_fixed>(def.swing_limit_z, -1), -1, half_circle},
         {"twist_max", " degrees", def.twist_max, -half_circle, half_circle},
         {"twist_min", " degrees", def.twist_min, -half_circle, def.twist_max},
         {"distance_max", " m", def.distance_max, 0, greatest_length},
         {"distance_min", " m", def.distance_min, 0, def.distance_max},
         {"joint's compliance", " m/N", def.compliance, 0, LKS_FIXED(1000)},
+        {"joint's damping", " N·s/m", def.damping, 0, LKS_FIXED(1000000)},
+        {"angular_compliance", " rad/(N·m)", def.angular_compliance, 0, LKS_FIXED(1000)},
+        {"angular_damping", " N·m·s", def.angular_damping, 0, LKS_FIXED(1000000)},
         {"joint's friction", " N·m", def.friction, 0, LKS_FIXED(1000000)},
+        {"break_force", " N", def.break_force, 0, LKS_FIXED(8000000)},
+        {"break_torque", " N·m", def.break_torque, 0, LKS_FIXED(8000000)},
     };
     return check_numbers(world, numbers);
 }
@@ -70,6 +78,19 @@ lks_result check_joint_def(const lks_world& world, const lks_joint_def& def) {
         }
     }
     return check_bodies(world, def);
+}
+
+lks_result check_motor(const lks_world& world, std::uint32_t kind, const lks_motor& motor) {
+    if (kind != LKS_JOINT_BALL && kind != LKS_JOINT_HINGE && motor.max_torque != 0) {
+        return world.fail(LKS_ERROR_UNSUPPORTED, Sentence() << "A joint of kind " << kind
+                                                            << " has no motor: ball joints and hinges have.");
+    }
+    const Number numbers[] = {{"motor's max_torque", " N·m", motor.max_torque, 0, LKS_FIXED(1000000)},
+                              {"motor's response", " s", motor.response, 0, LKS_FIXED(100)}};
+    if (const lks_result result = check_numbers(world, numbers); result != LKS_OK) {
+        return result;
+    }
+    return check_rotation(world, motor.target);
 }
 
 lks_result require_joint(const lks_world* world, lks_joint_id id) {

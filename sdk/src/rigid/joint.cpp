@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "rigid/joint_drive.h"
+#include "rigid/joint_limits.h"
 #include "rigid/joint_turns.h"
 
 namespace lks {
@@ -60,15 +62,28 @@ Vec3 scaled(const Vec3& v, int shift) {
     return {part(v.x), part(v.y), part(v.z)};
 }
 
-// Soft joints, distances, and those with rows for angles besides begin each substep anew, as XPBD has them: a
-// beam on a fixed joint sagged by 9° when its points alone carried their push on.
+// Soft joints and distances begin each substep anew, as XPBD has them.
 bool keeps_push(const Joint& joint) {
-    return joint.description.kind == LKS_JOINT_BALL && joint.constants.softness == 0;
+    return joint.description.kind != LKS_JOINT_DISTANCE && joint.constants.softness == 0 &&
+           joint.constants.angular_softness == 0;
 }
 
 void push_apart(const Joint& joint, Body& a, Body& b, const Vec3& p) {
     push(a, joint.side_a, p, -1);
     push(b, joint.side_b, p, 1);
+}
+
+// c·C + α̃/(1+γ)·λ + γ/(1+γ)·Δ of XPBD's eq. 26.
+std::int64_t soften(const JointConstants& constants, std::int64_t error, std::int64_t motion,
+                    std::int64_t push) {
+    return fixed::scale_component(constants.error_share, error) +
+           fixed::multiply_shift(push, constants.softness, 30) +
+           fixed::scale_component(constants.motion_share, motion);
+}
+
+Vec3 soften(const JointConstants& constants, const Vec3& error, const Vec3& motion, const Vec3& push) {
+    return {soften(constants, error.x, motion.x, push.x), soften(constants, error.y, motion.y, push.y),
+            soften(constants, error.z, motion.z, push.z)};
 }
 
 // Errors beyond this are taken in several substeps: a bone that was torn 10 m away comes back at a bounded
@@ -77,11 +92,10 @@ constexpr std::int64_t greatest_step = std::int64_t{1} << (world_fraction_bits -
 
 // The points together, in all directions at once (XPBD eq. 18).
 void project_points(Joint& joint, Body& a, Body& b) {
-    Vec3 error = joint_offset(joint, a, b) - joint.start;
-    const std::int64_t softness = joint.constants.softness;
-    if (softness != 0) {
-        const auto part = [softness](std::int64_t c) { return fixed::multiply_shift(c, softness, 30); };
-        error = error + Vec3{part(joint.push.x), part(joint.push.y), part(joint.push.z)};
+    const Vec3 offset = joint_offset(joint, a, b);
+    Vec3 error = offset - joint.start;
+    if (joint.constants.softness != 0) {
+        error = soften(joint.constants, error, offset - joint.begin, joint.push);
     }
     clamp_vector(error, greatest_step);
     const Vec3 before = joint.push;
@@ -118,8 +132,8 @@ void project_distance(Joint& joint, Body& a, Body& b) {
     const Vec3 lever_b = fixed::rotate(b.rotation, d.point_b);
     const RowSide side_a = push_side(a, joint.constants.shares.a, way.direction, lever_a, weight);
     const RowSide side_b = push_side(b, joint.constants.shares.b, way.direction, lever_b, weight);
-    const std::int64_t soft = fixed::multiply_shift(pushed, joint.constants.softness, 30);
-    std::int64_t p = -divide(error + soft, invert(weight));
+    const std::int64_t motion = fixed::dot(way.direction, offset - joint.begin);
+    std::int64_t p = -divide(soften(joint.constants, error, motion, pushed), invert(weight));
     if (!rod) {
         // A rope only pulls, a strut only pushes.
         const std::int64_t total =
@@ -140,14 +154,20 @@ Vec3 joint_offset(const Joint& joint, const Body& a, const Body& b) {
 }
 
 void begin_substep(Joint& joint, const Body& a, const Body& b) {
-    joint.start = joint_offset(joint, a, b);
+    joint.begin = joint_offset(joint, a, b);
+    aim_motor(joint, a, b);
+    begin_limits(joint, a, b);
+    begin_turn(joint, a, b);
 }
 
 void warm_start(Joint& joint, Body& a, Body& b) {
     const JointDescription& d = joint.description;
-    joint.turn = {0, 0, 0};
-    joint.grip = {0, 0, 0};
-    if (!keeps_push(joint)) {
+    warm_start_turn(joint, a, b);
+    warm_start_limits(joint, a, b);
+    warm_start_drive(joint, a, b);
+    if (keeps_push(joint)) {
+        joint.start = joint.begin;
+    } else {
         joint.push = {0, 0, 0};
         joint.start = {0, 0, 0};
     }
@@ -161,7 +181,9 @@ void warm_start(Joint& joint, Body& a, Body& b) {
     }
 }
 
-void undo_error(const Joint& joint, Body& a, Body& b) {
+void undo_error(Joint& joint, Body& a, Body& b) {
+    undo_turn(joint, a, b);
+    const Vec3 limited = undo_limits(joint, a, b);
     if (keeps_push(joint)) {
         Vec3 error = joint_offset(joint, a, b);
         clamp_vector(error, greatest_step);
@@ -173,15 +195,27 @@ void undo_error(const Joint& joint, Body& a, Body& b) {
             body->orientation = normalise(body->orientation);
         }
     }
+    joint.pushed = joint.pushed + joint.push;
+    joint.turned = joint.turned + joint.turn + limited + joint.grip + joint.drag;
 }
 
-void project(Joint& joint, Body& a, Body& b, bool forward) {
-    project_turns(joint, a, b, forward);
+void project(Joint& joint, Body& a, Body& b) {
+    project_drive(joint, a, b);
+    project_turn(joint, a, b);
+    project_limits(joint, a, b);
     if (joint.description.kind == LKS_JOINT_DISTANCE) {
         project_distance(joint, a, b);
     } else {
         project_points(joint, a, b);
     }
+}
+
+bool breaks(const Joint& joint) {
+    const auto beyond = [](const Vec3& sum, std::int64_t most) {
+        return most != 0 && fixed::length(sum) > static_cast<std::uint64_t>(most);
+    };
+    return beyond(joint.pushed, joint.constants.break_push) ||
+           beyond(joint.turned, joint.constants.break_turn);
 }
 
 } // namespace lks

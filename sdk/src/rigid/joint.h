@@ -4,11 +4,11 @@
 // rigid/pair.h. What turns (a hinge's and a fixed joint's axes, limits, friction) is a row each, about the
 // axis of its own error.
 //
-// Of a ball joint's points, as of contacts, the motion within a substep is constrained, beginning with the
-// push of the one before; what is left of the error is undone at its end without giving speed. (Where the
-// whole error is corrected with speed, as XPBD has it, pushes can't be carried on: chains gained energy.)
-// What turns is corrected as XPBD has it: without speed limits were exceeded by 30° in a pile, where they are
-// by 8°.
+// As of contacts, what is constrained is the motion within a substep, beginning with the push of the one
+// before; what is left of the error is undone at its end without giving speed. (Where the whole error is
+// corrected with speed, as XPBD has it, pushes can't be carried on: chains gained energy. Without carried
+// pushes limits were exceeded by 30° in a pile, and it never came to rest.) Soft joints and distances are
+// XPBD's.
 #pragma once
 
 #include <lockstitch/joint.h>
@@ -33,13 +33,23 @@ struct JointDescription {
     fixed::Vec3 point_b;
     fixed::Rotation frame_a;
     fixed::Rotation frame_b;
-    std::int64_t swing_limit; // World, degrees
+    std::int64_t swing_limit;   // World, degrees
+    std::int64_t swing_limit_z; // negative: as swing_limit
     std::int64_t twist_min;
     std::int64_t twist_max;
     std::int64_t distance_min; // World
     std::int64_t distance_max;
-    std::int64_t compliance; // World, m/N
-    std::int64_t friction;   // World, N·m
+    std::int64_t compliance;         // World, m/N
+    std::int64_t damping;            // World, N·s/m
+    std::int64_t angular_compliance; // World, rad/(N·m)
+    std::int64_t angular_damping;    // World, N·m·s
+    std::int64_t friction;           // World, N·m
+    std::int64_t break_force;        // World, N; 0: never
+    std::int64_t break_torque;       // World, N·m; 0: never
+    // Of the motor.
+    std::int64_t motor_torque;    // World, N·m; 0: off
+    std::int64_t motor_response;  // World, s
+    fixed::Rotation motor_target; // b's frame in a's
 };
 
 // What follows from the description and the bodies' masses.
@@ -49,15 +59,27 @@ struct JointConstants {
     fixed::Direction axis_b;
     bool swing_limited;
     bool twist_limited;
-    std::int32_t swing_cosine; // of the limit, 30 fraction bits
+    bool swing_round;          // a cone
+    std::int32_t swing_cosine; // of the least limit, 30 fraction bits
     std::int64_t swing_limit;  // World, radians
-    SinCos half_min;           // of half the least twist
+    std::int64_t swing_limit_z;
+    fixed::Direction across_a[2]; // local x and z of the frame of a, in the body's axes
+    SinCos half_min;              // of half the least twist
     SinCos half_max;
     std::int64_t twist_min; // World, radians
     std::int64_t twist_max;
-    std::int64_t softness; // α̃ / the greater inverse mass, 30 fraction bits
-    std::int64_t friction; // the greatest push of friction in a substep: an angle, World
-    int reach;             // of turns (rigid/pair.h)
+    // XPBD eq. 26 divided by 1 + γ: the shares of the error and of the substep's motion, and α̃ / (1 + γ); as
+    // softness counts in the greater inverse mass, 30 fraction bits.
+    std::int64_t softness;
+    std::int32_t error_share;
+    std::int32_t motion_share;
+    std::int64_t angular_softness;
+    std::int64_t drag_softness; // of angular damping; 0: none
+    std::int64_t grip;          // the greatest push of friction or motor in a substep: an angle, World
+    std::int64_t break_push;    // what `pushed` and `turned` bear; 0: everything
+    std::int64_t break_turn;
+    std::int32_t motor_share; // what of its error the motor makes up for in a substep, 30 fraction bits
+    int reach;                // of turns (rigid/pair.h)
 };
 
 struct Joint {
@@ -66,11 +88,25 @@ struct Joint {
 
     // State: what it pushed in the last substep, World.
     fixed::Vec3 push; // from a to b, a length; a ball joint begins with it
-    fixed::Vec3 turn; // of b against a, an angle; for reading out
+    fixed::Vec3
+        grip; // of friction or the motor: turns b against a, an angle; the next substep begins with it
+    fixed::Vec3 turn;        // of hinges and fixed joints: turns b against a; the next substep begins with it
+    std::int64_t swing_push; // of the limits: angles; the next substep begins with them
+    std::int64_t twist_push;
+    // What it pushed and turned in the last tick, substeps added up; for reading out.
+    fixed::Vec3 pushed;
+    fixed::Vec3 turned;
 
     // Of the substep.
-    fixed::Vec3 start; // how far the points were apart at its beginning
-    fixed::Vec3 grip;  // what friction turned
+    fixed::Vec3 begin;        // how far the points were apart at its beginning
+    fixed::Vec3 start;        // what of it is to be kept
+    fixed::Vec3 limit;        // what limits turned
+    fixed::Vec3 turn_start;   // how far a hinge's or a fixed joint's frames are turned at its beginning
+    fixed::Vec3 drag;         // what angular damping turned
+    std::int64_t swing_start; // how far limits let turn in this substep: World, radians
+    std::int64_t twist_least;
+    std::int64_t twist_most;
+    fixed::Vec3 aim; // what the motor is to turn: half turns, Turn
     BlockSide side_a;
     BlockSide side_b;
     SymmetricMatrix inverse; // K⁻¹ = inverse · 2^inverse_shift
@@ -86,11 +122,12 @@ JointConstants make_joint_constants(const JointDescription& description, const B
 void begin_substep(Joint& joint, const Body& a, const Body& b);
 // Once they are: K, and the pushes of the substep before.
 void warm_start(Joint& joint, Body& a, Body& b);
-// Friction takes part in forward sweeps only.
-void project(Joint& joint, Body& a, Body& b, bool forward);
+void project(Joint& joint, Body& a, Body& b);
 
-// Once velocities are known: what is left of the points' error, without giving speed.
-void undo_error(const Joint& joint, Body& a, Body& b);
+// Once velocities are known: what is left of the points' error, without giving speed. Adds up the pushes.
+void undo_error(Joint& joint, Body& a, Body& b);
+// Its load over the last tick is more than it bears.
+bool breaks(const Joint& joint);
 
 // How far the points are apart in world axes, b less a.
 fixed::Vec3 joint_offset(const Joint& joint, const Body& a, const Body& b);

@@ -22,10 +22,68 @@ std::int64_t to_radians(std::int64_t degrees) {
     return fixed::multiply_divide(degrees, fixed::half_circle, half_circle_degrees);
 }
 
-// Of a joint's frame: local y, in its body's axes.
-Direction frame_axis(const fixed::Rotation& frame) {
+// Of a joint's frame: a local axis in its body's axes.
+Direction frame_axis(const fixed::Rotation& frame, int axis) {
     const fixed::Matrix3 m = fixed::to_matrix(frame);
-    return {m.m[0][1], m.m[1][1], m.m[2][1]};
+    return {m.m[0][axis], m.m[1][axis], m.m[2][axis]};
+}
+
+fixed::Scaled world(std::int64_t value) {
+    return fixed::Scaled::from_fixed(static_cast<std::uint64_t>(value), world_fraction_bits);
+}
+
+// Softnesses and pushes beyond this make no difference any more.
+std::int64_t bounded(const fixed::Scaled& value, int fraction_bits) {
+    return std::min(value.to_i64_fixed(fraction_bits), std::int64_t{1} << 50);
+}
+
+void set_swing(JointConstants& c, const JointDescription& d) {
+    const std::int64_t z = d.swing_limit_z < 0 ? d.swing_limit : d.swing_limit_z;
+    c.swing_limited = d.kind == LKS_JOINT_BALL && std::min(d.swing_limit, z) < half_circle_degrees;
+    c.swing_round = z == d.swing_limit;
+    c.swing_cosine = sine_and_cosine(std::min(d.swing_limit, z), world_fraction_bits).cosine;
+    c.swing_limit = to_radians(d.swing_limit);
+    c.swing_limit_z = to_radians(z);
+    c.across_a[0] = frame_axis(d.frame_a, 0);
+    c.across_a[1] = frame_axis(d.frame_a, 2);
+}
+
+// The most that the pushes of a tick may add up to; 0: no limit.
+std::int64_t greatest_sum(std::int64_t limit, const fixed::Scaled& push_of_one) {
+    return limit == 0
+               ? 0
+               : std::max<std::int64_t>((world(limit) * push_of_one).to_i64_fixed(world_fraction_bits), 1);
+}
+
+// `greater` is the greater inverse mass.
+void set_forces(JointConstants& c, const JointDescription& d, const fixed::Scaled& greater,
+                const StepRate& rate) {
+    const fixed::Scaled inverse_h = rate.inverse_h();
+    const fixed::Scaled one = fixed::Scaled::from_u64(1);
+    const fixed::Scaled by_reach = one.times_power_of_two(2 * c.reach);
+    const fixed::Scaled stretched = one + world(d.compliance) * world(d.damping) * inverse_h; // 1 + γ
+    c.error_share = static_cast<std::int32_t>((one / stretched).to_i64_fixed(30));
+    c.motion_share = direction_one - c.error_share;
+    c.softness = bounded(world(d.compliance) * inverse_h * inverse_h / greater / stretched, 30);
+    c.angular_softness =
+        bounded(world(d.angular_compliance) * inverse_h * inverse_h * by_reach / greater, 30);
+    if (d.angular_damping != 0) {
+        c.drag_softness = bounded(by_reach * inverse_h / (world(d.angular_damping) * greater), 30);
+        c.drag_softness = std::max<std::int64_t>(c.drag_softness, 1);
+    }
+    // A force F over a substep is a push of F·h²·w; a torque the same, of angles at a radius of 2^reach m.
+    const fixed::Scaled force_push = greater / (inverse_h * inverse_h);
+    const fixed::Scaled torque_push = force_push / by_reach;
+    const fixed::Scaled substeps = fixed::Scaled::from_u64(rate.substeps);
+    c.break_push = greatest_sum(d.break_force, force_push * substeps);
+    c.break_turn = greatest_sum(d.break_torque, torque_push * substeps);
+    const bool motor = d.motor_torque != 0;
+    c.grip = bounded(world(motor ? d.motor_torque : d.friction) * torque_push, world_fraction_bits);
+    if (motor) {
+        const fixed::Scaled response = world(d.motor_response) * inverse_h; // in substeps
+        c.motor_share =
+            response < one ? direction_one : static_cast<std::int32_t>((one / response).to_i64_fixed(30));
+    }
 }
 
 } // namespace
@@ -39,12 +97,18 @@ lks_joint_def define_joint(const JointDescription& d) {
     def.frame_b.rotation = rotation(d.frame_b);
     def.bodies_collide = d.bodies_collide;
     def.swing_limit = d.swing_limit;
+    def.swing_limit_z = d.swing_limit_z;
     def.twist_min = d.twist_min;
     def.twist_max = d.twist_max;
     def.distance_min = d.distance_min;
     def.distance_max = d.distance_max;
     def.compliance = d.compliance;
+    def.damping = d.damping;
+    def.angular_compliance = d.angular_compliance;
+    def.angular_damping = d.angular_damping;
     def.friction = d.friction;
+    def.break_force = d.break_force;
+    def.break_torque = d.break_torque;
     return def;
 }
 
@@ -52,13 +116,11 @@ JointConstants make_joint_constants(const JointDescription& d, const Body& a, co
                                     const StepRate& rate) {
     JointConstants c{};
     c.shares = pair_shares(a.inverse_mass, b.inverse_mass);
-    c.axis_a = frame_axis(d.frame_a);
-    c.axis_b = frame_axis(d.frame_b);
-    c.swing_limited = d.kind == LKS_JOINT_BALL && d.swing_limit < half_circle_degrees;
+    c.axis_a = frame_axis(d.frame_a, 1);
+    c.axis_b = frame_axis(d.frame_b, 1);
+    set_swing(c, d);
     c.twist_limited = (d.kind == LKS_JOINT_BALL || d.kind == LKS_JOINT_HINGE) &&
                       (d.twist_min > -half_circle_degrees || d.twist_max < half_circle_degrees);
-    c.swing_cosine = sine_and_cosine(d.swing_limit, world_fraction_bits).cosine;
-    c.swing_limit = to_radians(d.swing_limit);
     // One fraction bit more is half the angle.
     c.half_min = sine_and_cosine(d.twist_min, world_fraction_bits + 1);
     c.half_max = sine_and_cosine(d.twist_max, world_fraction_bits + 1);
@@ -69,17 +131,8 @@ JointConstants make_joint_constants(const JointDescription& d, const Body& a, co
               : !b.is_dynamic() ? reach_of(a)
                                 : std::min(reach_of(a), reach_of(b));
     const fixed::Scaled greater = greater_inverse_mass(c.shares, a, b);
-    const fixed::Scaled inverse_h = rate.inverse_h();
-    const auto world = [](std::int64_t value) {
-        return fixed::Scaled::from_fixed(static_cast<std::uint64_t>(value), world_fraction_bits);
-    };
     if (!greater.is_zero()) {
-        const fixed::Scaled softness = world(d.compliance) * inverse_h * inverse_h / greater;
-        c.softness = std::min(softness.to_i64_fixed(30), std::int64_t{1} << 50);
-        // A torque M over a substep is a push of M·h²·w, of angles at a radius of 2^reach m.
-        const fixed::Scaled most =
-            world(d.friction) * greater / (inverse_h * inverse_h).times_power_of_two(2 * c.reach);
-        c.friction = std::min(most.to_i64_fixed(world_fraction_bits), std::int64_t{1} << 50);
+        set_forces(c, d, greater, rate);
     }
     return c;
 }

@@ -1,12 +1,17 @@
-// How the two frames of a joint are turned against each other, and what holds that: a hinge's and a fixed
-// joint's axes, the limits of swing and twist, and friction.
+// What of turning hinges and fixed joints don't allow. Like points, the motion within a substep is held,
+// beginning with the push of the one before.
 #pragma once
 
 #include "rigid/joint.h"
 
 namespace lks {
 
-// One sweep over all of them. Friction takes part in forward ones only.
-void project_turns(Joint& joint, Body& a, Body& b, bool forward);
+// Before the prediction.
+void begin_turn(Joint& joint, const Body& a, const Body& b);
+// After it.
+void warm_start_turn(Joint& joint, Body& a, Body& b);
+void project_turn(Joint& joint, Body& a, Body& b);
+// After the velocities: what is left.
+void undo_turn(const Joint& joint, Body& a, Body& b);
 
 } // namespace lks

@@ -59,10 +59,10 @@ private:
                (scene_.bodies[d.body_a].is_awake() || scene_.bodies[d.body_b].is_awake());
     }
 
-    void project_joint(std::size_t index, bool forward) {
+    void project_joint(std::size_t index) {
         if (is_at_work(index)) {
             Joint& joint = scene_.joints[index];
-            project(joint, body_a(joint), body_b(joint), forward);
+            project(joint, body_a(joint), body_b(joint));
         }
     }
 
@@ -105,6 +105,12 @@ private:
             scene_.ticks.push_reserved(
                 used(i) ? make_body_tick(scene_.descriptions[i], world_.rate, world_.gravity) : BodyTick{});
         }
+        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+            if (is_at_work(i)) {
+                scene_.joints[i].pushed = {0, 0, 0};
+                scene_.joints[i].turned = {0, 0, 0};
+            }
+        }
     }
 
     void run_substep(std::uint32_t substep) {
@@ -135,7 +141,7 @@ private:
         for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
             // Forward and back: a sweep in one direction only makes tall stacks sway.
             for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-                project_joint(i, true);
+                project_joint(i);
             }
             for (Contact& contact : scene_.contacts) {
                 project(contact, bodies_of(contact));
@@ -144,7 +150,7 @@ private:
                 project(scene_.contacts[i], bodies_of(scene_.contacts[i]));
             }
             for (std::size_t i = scene_.joints.size(); i-- > 0;) {
-                project_joint(i, false);
+                project_joint(i);
             }
         }
         for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
@@ -203,12 +209,26 @@ private:
 
     void finish() {
         remember_contacts();
+        break_joints();
         for (Body& body : scene_.bodies) {
             if (!body.is_dynamic()) {
                 body.target_orientation = body.orientation;
             }
         }
         fall_asleep(world_);
+    }
+
+    void break_joints() {
+        bool any = false;
+        for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
+            if (is_at_work(i) && breaks(scene_.joints[i])) {
+                scene_.free_joint(i);
+                any = true;
+            }
+        }
+        if (any) {
+            scene_.follow_joints();
+        }
     }
 
     // What pushed in this tick, and what holds sleeping bodies, in the order of keys.

@@ -90,14 +90,28 @@ void joint_fields(Io& io, Joint& joint) {
     rotation_fields(io, d.frame_a);
     rotation_fields(io, d.frame_b);
     io.i64(d.swing_limit);
+    io.i64(d.swing_limit_z);
     io.i64(d.twist_min);
     io.i64(d.twist_max);
     io.i64(d.distance_min);
     io.i64(d.distance_max);
     io.i64(d.compliance);
+    io.i64(d.damping);
+    io.i64(d.angular_compliance);
+    io.i64(d.angular_damping);
     io.i64(d.friction);
+    io.i64(d.break_force);
+    io.i64(d.break_torque);
+    io.i64(d.motor_torque);
+    io.i64(d.motor_response);
+    rotation_fields(io, d.motor_target);
     vector_fields(io, joint.push);
     vector_fields(io, joint.turn);
+    vector_fields(io, joint.grip);
+    io.i64(joint.swing_push);
+    io.i64(joint.twist_push);
+    vector_fields(io, joint.pushed);
+    vector_fields(io, joint.turned);
 }
 
 template <typename Io>

@@ -1,0 +1,105 @@
+#include "rigid/joint_drive.h"
+
+#include "fixed/arc_tangent.h"
+#include "rigid/joint_frames.h"
+
+namespace lks {
+namespace {
+
+using fixed::Direction;
+using fixed::Vec3;
+
+// How much b has turned against a in this substep: half turns, Turn.
+Vec3 turned_since_start(const Body& a, const Body& b) {
+    return half_turn_between(b.start_orientation, b.orientation) -
+           half_turn_between(a.start_orientation, a.orientation);
+}
+
+// Half turns to angles, Turn to World.
+std::int64_t to_angle(std::int64_t half_turn) {
+    return half_turn >> (turn_fraction_bits - world_fraction_bits - 1);
+}
+
+// Turns by what the aim is missed by, up to the greatest push.
+void drive(Joint& joint, Body& a, Body& b) {
+    fixed::NormalisedVector way{};
+    if (!fixed::normalise(turned_since_start(a, b) - joint.aim, way)) {
+        return;
+    }
+    const std::int64_t wanted = TurnRow(joint, a, b, way.direction).push_for(-to_angle(way.length));
+    const Vec3 before = joint.grip;
+    Vec3 total = before + fixed::scale(way.direction, wanted);
+    fixed::NormalisedVector size{};
+    if (fixed::normalise(total, size) && size.length > joint.constants.grip) {
+        total = fixed::scale(size.direction, joint.constants.grip);
+    }
+    joint.grip = total;
+    turn_apart(joint, a, b, total - before);
+}
+
+// A torque against the speed of turning.
+void drag(Joint& joint, Body& a, Body& b) {
+    fixed::NormalisedVector way{};
+    if (!fixed::normalise(turned_since_start(a, b), way)) {
+        return;
+    }
+    const std::int64_t softness = joint.constants.drag_softness;
+    const std::int64_t angle =
+        softened(to_angle(way.length), fixed::dot(way.direction, joint.drag), softness);
+    const TurnRow row(joint, a, b, way.direction, softness);
+    joint.drag = joint.drag + fixed::scale(way.direction, row.turn_by(-angle));
+    clamp_vector(joint.drag, greatest_push);
+}
+
+// What is missing to the motor's target, about any axis or about the hinge's: an angle in World, in the
+// world.
+Vec3 missing_turn(const Joint& joint, const Body& a, const Body& b) {
+    const fixed::Rotation now = relative_rotation(joint, a, b);
+    fixed::Rotation q = fixed::multiply(joint.description.motor_target, fixed::conjugate(now));
+    if (joint.description.kind == LKS_JOINT_HINGE) {
+        q.x = 0;
+        q.z = 0;
+    }
+    fixed::NormalisedVector way{};
+    if (!fixed::normalise(Vec3{q.x, q.y, q.z}, way)) {
+        return {0, 0, 0};
+    }
+    const std::int64_t half = fixed::angle_of(q.w < 0 ? -way.length : way.length, q.w < 0 ? -q.w : q.w);
+    return fixed::scale(from_frame_a(joint, a, way.direction), 2 * half);
+}
+
+} // namespace
+
+void aim_motor(Joint& joint, const Body& a, const Body& b) {
+    joint.aim = {0, 0, 0};
+    if (joint.description.motor_torque != 0) {
+        const Vec3 missing = missing_turn(joint, a, b);
+        // Half of it, as Turn.
+        const auto part = [&](std::int64_t c) {
+            return fixed::scale_component(
+                joint.constants.motor_share,
+                c * (std::int64_t{1} << (turn_fraction_bits - world_fraction_bits - 1)));
+        };
+        joint.aim = {part(missing.x), part(missing.y), part(missing.z)};
+    }
+}
+
+void warm_start_drive(Joint& joint, Body& a, Body& b) {
+    joint.drag = {0, 0, 0};
+    if (joint.constants.grip == 0) {
+        joint.grip = {0, 0, 0};
+    } else {
+        turn_apart(joint, a, b, joint.grip);
+    }
+}
+
+void project_drive(Joint& joint, Body& a, Body& b) {
+    if (joint.constants.drag_softness != 0) {
+        drag(joint, a, b);
+    }
+    if (joint.constants.grip != 0) {
+        drive(joint, a, b);
+    }
+}
+
+} // namespace lks

@@ -1,0 +1,170 @@
+#include "rigid/joint_limits.h"
+
+#include <algorithm>
+
+#include "fixed/arc_tangent.h"
+#include "rigid/joint_frames.h"
+
+namespace lks {
+namespace {
+
+using fixed::Direction;
+using fixed::Vec3;
+
+// How far the axis of b may swing the way it does: an ellipse with a half axis towards each of the frame's
+// two axes across.
+std::int64_t swing_limit(const JointConstants& c, const Body& a, const Direction& v) {
+    if (c.swing_round) {
+        return c.swing_limit;
+    }
+    const std::int64_t x = fixed::dot(fixed::rotate(a.rotation, c.across_a[0]), v);
+    const std::int64_t z = fixed::dot(fixed::rotate(a.rotation, c.across_a[1]), v);
+    fixed::NormalisedVector towards{};
+    fixed::NormalisedVector scaled{};
+    if (!fixed::normalise(Vec3{x, z, 0}, towards) ||
+        !fixed::normalise(Vec3{fixed::scale_component(towards.direction.x, c.swing_limit_z),
+                               fixed::scale_component(towards.direction.y, c.swing_limit), 0},
+                          scaled)) {
+        return std::min(c.swing_limit, c.swing_limit_z);
+    }
+    return fixed::multiply_divide(c.swing_limit, c.swing_limit_z, scaled.length);
+}
+
+// How far the axes are apart, and about which axis.
+struct Swing {
+    Direction axis;
+    std::int64_t angle; // World, radians
+    std::int64_t limit;
+};
+
+// False: certainly within the limit.
+bool find_swing(const Joint& joint, const Body& a, const Body& b, Swing& swing) {
+    const auto [u, v] = axes_of(joint, a, b);
+    const std::int32_t cosine = fixed::dot(u, v);
+    if (cosine >= joint.constants.swing_cosine && joint.swing_push == 0) {
+        return false;
+    }
+    fixed::NormalisedVector way{};
+    if (!fixed::normalise(sines(u, v), way)) {
+        fixed::normalise(fixed::some_across(u), way);
+        way.length = 0;
+    }
+    swing = {way.direction, fixed::angle_of(way.length, cosine), swing_limit(joint.constants, a, v)};
+    return true;
+}
+
+void hold_swing(Joint& joint, Body& a, Body& b) {
+    Swing swing{};
+    if (!find_swing(joint, a, b, swing)) {
+        return;
+    }
+    const TurnRow row(joint, a, b, swing.axis);
+    const std::int64_t beyond = swing.angle - std::max(swing.limit, joint.swing_start);
+    const std::int64_t wanted =
+        std::clamp<std::int64_t>(joint.swing_push + row.push_for(beyond), 0, greatest_push);
+    const std::int64_t more = wanted - joint.swing_push;
+    joint.swing_push = wanted;
+    row.apply(-more);
+}
+
+// Where the twist is certainly within its limits nobody need know it. Half the twist is the angle of
+// (q.w, q.y).
+bool find_twist(const Joint& joint, const Body& a, const Body& b, std::int64_t& twist) {
+    const fixed::Rotation q = relative_rotation(joint, a, b);
+    const JointConstants& c = joint.constants;
+    // Where the swing is a half turn there is no twist.
+    if (std::int64_t{q.y} * q.y + std::int64_t{q.w} * q.w < std::int64_t{1} << 50) {
+        return false;
+    }
+    // sin(twist/2 − limit/2), times what is left of the swing.
+    const std::int64_t above = std::int64_t{q.y} * c.half_max.cosine - std::int64_t{q.w} * c.half_max.sine;
+    const std::int64_t below = std::int64_t{q.w} * c.half_min.sine - std::int64_t{q.y} * c.half_min.cosine;
+    if (above <= 0 && below <= 0 && joint.twist_push == 0) {
+        return false;
+    }
+    twist = 2 * fixed::angle_of(q.y, q.w);
+    return true;
+}
+
+// About the middle of both axes.
+bool twist_axis(const Joint& joint, const Body& a, const Body& b, Direction& axis) {
+    const auto [u, v] = axes_of(joint, a, b);
+    fixed::NormalisedVector way{};
+    const bool any = fixed::normalise(
+        Vec3{std::int64_t{u.x} + v.x, std::int64_t{u.y} + v.y, std::int64_t{u.z} + v.z}, way);
+    axis = way.direction;
+    return any;
+}
+
+void hold_twist(Joint& joint, Body& a, Body& b) {
+    std::int64_t twist = 0;
+    Direction axis{};
+    if (!find_twist(joint, a, b, twist) || !twist_axis(joint, a, b, axis)) {
+        return;
+    }
+    const TurnRow row(joint, a, b, axis);
+    const std::int64_t before = joint.twist_push;
+    // Beyond its greatest it may only be turned down, below its least only up.
+    if (twist > joint.twist_most || before < 0) {
+        joint.twist_push =
+            std::clamp<std::int64_t>(before + row.push_for(joint.twist_most - twist), -greatest_push, 0);
+    } else if (twist < joint.twist_least || before > 0) {
+        joint.twist_push =
+            std::clamp<std::int64_t>(before + row.push_for(joint.twist_least - twist), 0, greatest_push);
+    }
+    row.apply(joint.twist_push - before);
+}
+
+} // namespace
+
+void begin_limits(Joint& joint, const Body& a, const Body& b) {
+    const JointConstants& c = joint.constants;
+    Swing swing{};
+    joint.swing_start = c.swing_limited && find_swing(joint, a, b, swing) ? swing.angle : 0;
+    joint.twist_least = c.twist_min;
+    joint.twist_most = c.twist_max;
+    std::int64_t twist = 0;
+    if (c.twist_limited && find_twist(joint, a, b, twist)) {
+        joint.twist_least = std::min(c.twist_min, twist);
+        joint.twist_most = std::max(c.twist_max, twist);
+    }
+}
+
+void warm_start_limits(const Joint& joint, Body& a, Body& b) {
+    Swing swing{};
+    if (joint.swing_push != 0 && find_swing(joint, a, b, swing)) {
+        TurnRow(joint, a, b, swing.axis).apply(-joint.swing_push);
+    }
+    Direction axis{};
+    if (joint.twist_push != 0 && twist_axis(joint, a, b, axis)) {
+        TurnRow(joint, a, b, axis).apply(joint.twist_push);
+    }
+}
+
+void project_limits(Joint& joint, Body& a, Body& b) {
+    if (joint.constants.swing_limited) {
+        hold_swing(joint, a, b);
+    }
+    if (joint.constants.twist_limited) {
+        hold_twist(joint, a, b);
+    }
+}
+
+Vec3 undo_limits(const Joint& joint, Body& a, Body& b) {
+    const JointConstants& c = joint.constants;
+    Vec3 pushed{0, 0, 0};
+    Swing swing{};
+    if (c.swing_limited && find_swing(joint, a, b, swing)) {
+        pushed = -fixed::scale(swing.axis, joint.swing_push);
+        TurnRow(joint, a, b, swing.axis).turn_by(std::min<std::int64_t>(swing.limit - swing.angle, 0));
+    }
+    std::int64_t twist = 0;
+    Direction axis{};
+    if (c.twist_limited && find_twist(joint, a, b, twist) && twist_axis(joint, a, b, axis)) {
+        pushed = pushed + fixed::scale(axis, joint.twist_push);
+        TurnRow(joint, a, b, axis).turn_by(std::clamp(twist, c.twist_min, c.twist_max) - twist);
+    }
+    return pushed;
+}
+
+} // namespace lks

@@ -1,0 +1,18 @@
+// The limits of swing and twist. What is beyond a limit must not turn further within a substep; like a
+// contact's, its push only turns back, and the next substep begins with it. What is beyond is undone without
+// giving speed.
+#pragma once
+
+#include "rigid/joint.h"
+
+namespace lks {
+
+// Before the prediction: how far they let turn.
+void begin_limits(Joint& joint, const Body& a, const Body& b);
+// After it.
+void warm_start_limits(const Joint& joint, Body& a, Body& b);
+void project_limits(Joint& joint, Body& a, Body& b);
+// After the velocities: what is left. Returns how they have pushed in this substep.
+fixed::Vec3 undo_limits(const Joint& joint, Body& a, Body& b);
+
+} // namespace lks

@@ -1,0 +1,145 @@
+// How well ragdolls hold together: on stairs, and in a pile.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/bodies.h"
+
+using namespace support;
+
+namespace {
+
+constexpr std::uint32_t joint_count = LKS_HUMANOID_BONES - 1;
+
+// Several of them, and what was seen of their joints.
+class Ragdolls {
+public:
+    explicit Ragdolls(World& world) : world_(world) {}
+
+    void add(const lks_transform& transform, const lks_vec3& velocity = {}) {
+        human_.def.transform = transform;
+        human_.def.velocity = velocity;
+        lks_joint_id joints[joint_count];
+        lks_body_id bodies[LKS_HUMANOID_BONES];
+        REQUIRE(human_.add(world_, bodies, joints) == LKS_OK);
+        bodies_.insert(bodies_.end(), bodies, bodies + LKS_HUMANOID_BONES);
+        joints_.insert(joints_.end(), joints, joints + joint_count);
+    }
+
+    void step() {
+        world_.step();
+        limit_now_ = 0;
+        for (std::size_t i = 0; i < joints_.size(); ++i) {
+            lks_fixed error = 0;
+            REQUIRE(lks_joint_error(world_, joints_[i], &error) == LKS_OK);
+            sum_ += metres(error);
+            worst_ = std::max(worst_, metres(error));
+            ++count_;
+            limit_now_ = std::max(limit_now_, beyond(i));
+        }
+        limit_ = std::max(limit_, limit_now_);
+    }
+
+    const std::vector<lks_body_id>& bodies() const { return bodies_; }
+    double mean() const { return sum_ / count_; }
+    double worst() const { return worst_; }
+    double limit() const { return limit_; }
+    double limit_now() const { return limit_now_; }
+
+private:
+    // Degrees by which a joint is beyond what it allows.
+    double beyond(std::size_t joint) const {
+        const lks_bone& bone = human_.bones[1 + joint % joint_count];
+        lks_fixed swing = 0;
+        lks_fixed twist = 0;
+        REQUIRE(lks_joint_angles(world_, joints_[joint], &swing, &twist) == LKS_OK);
+        const double cone = bone.joint_kind == LKS_JOINT_BALL ? metres(bone.swing_limit) : 0;
+        return std::max({0.0, metres(swing) - cone, metres(twist) - metres(bone.twist_max),
+                         metres(bone.twist_min) - metres(twist)});
+    }
+
+    World& world_;
+    Humanoid human_;
+    std::vector<lks_body_id> bodies_;
+    std::vector<lks_joint_id> joints_;
+    double sum_ = 0;
+    double count_ = 0;
+    double worst_ = 0;
+    double limit_ = 0;
+    double limit_now_ = 0;
+};
+
+void add_box(World& world, const lks_vec3& half, const lks_vec3& position) {
+    lks_collider_def def = lks_default_collider_def();
+    def.shape = LKS_SHAPE_BOX;
+    def.half_extents = half;
+    def.transform.position = position;
+    world.add(def);
+}
+
+lks_transform at(double x, double y, double z, double turned) {
+    lks_transform transform{fixed(x, y, z), {}};
+    REQUIRE(lks_rotation_from_axis_angle(1, 0, 0, turned, &transform.rotation) == LKS_OK);
+    return transform;
+}
+
+} // namespace
+
+TEST_CASE("a ragdoll tumbles down stairs in one piece, and falls asleep") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    for (int i = 0; i < 10; ++i) {
+        add_box(world, fixed(0.15, 0.085 * (10 - i), 1.5), fixed(0.3 * i, 0.085 * (10 - i), 0));
+    }
+    Ragdolls ragdolls(world);
+    ragdolls.add(at(0, 1.71, 0, 0), fixed(2.5, 0, 0.3));
+    for (int tick = 0; tick < 600; ++tick) {
+        ragdolls.step();
+    }
+    INFO("joints " << 1e3 * ragdolls.mean() << " mm, worst " << 1e3 * ragdolls.worst() << " mm; limits "
+                   << ragdolls.limit() << ", at rest " << ragdolls.limit_now());
+    CHECK(ragdolls.mean() < 1e-3);
+    CHECK(ragdolls.worst() < 10e-3);
+    CHECK(ragdolls.limit() < 12); // where it hits an edge; mostly below one
+    CHECK(ragdolls.limit_now() < 0.5);
+    CHECK(lks_world_awake_body_count(world) == 0);
+}
+
+TEST_CASE("a pile of ragdolls comes to rest and falls asleep within ten seconds") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    for (const double side : {-1.0, 1.0}) {
+        add_box(world, fixed(1.4, 0.5, 0.2), fixed(0, 0.5, side * 1.2));
+        add_box(world, fixed(0.2, 0.5, 1.4), fixed(side * 1.2, 0.5, 0));
+    }
+    Ragdolls ragdolls(world);
+    for (int i = 0; i < 8; ++i) {
+        ragdolls.add(at(0.5 * (i % 3) - 0.5, 0.6 + 0.6 * i, -0.9, 90));
+    }
+    double after = 0;
+    for (int tick = 0; tick < 660; ++tick) {
+        ragdolls.step();
+        after = tick == 180 ? energy_of(world) : after;
+    }
+    INFO("joints " << 1e3 * ragdolls.mean() << " mm, worst " << 1e3 * ragdolls.worst() << " mm; limits "
+                   << ragdolls.limit() << ", at rest " << ragdolls.limit_now() << "; " << after
+                   << " J after 3 s");
+    CHECK(ragdolls.mean() < 1e-3);
+    CHECK(ragdolls.worst() < 10e-3);
+    CHECK(ragdolls.limit_now() < 0.5);
+    CHECK(lks_world_awake_body_count(world) == 0);
+    std::vector<BodyState> before;
+    for (const lks_body_id body : ragdolls.bodies()) {
+        before.push_back(state_of(world, body));
+    }
+    world.step(216000); // an hour
+    CHECK(energy_of(world) == 0);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const BodyState now = state_of(world, ragdolls.bodies()[i]);
+        CHECK(now.position.x == before[i].position.x);
+        CHECK(now.position.y == before[i].position.y);
+        CHECK(now.rotation.w == before[i].rotation.w);
+    }
+}
