@@ -12,59 +12,9 @@ namespace {
 using fixed::Direction;
 using fixed::Vec3;
 
-// The inverse of a symmetric positive matrix with 30 fraction bits. Where it is too flat to be inverted in
-// 32 bits, that of its trace serves, which falls short but never goes too far.
-void invert_block(const std::int64_t (&k)[6], SymmetricMatrix& inverse, std::int32_t& shift) {
-    constexpr std::int64_t unit = std::int64_t{1} << 28;
-    const std::int64_t greatest = std::max({k[0], k[3], k[5]});
-    int down = 0;
-    while (greatest >> down >= 2 * unit) {
-        ++down;
-    }
-    std::int64_t m[6]; // in units of 2^28, the greatest of the diagonal from 1 to 2
-    for (int i = 0; i < 6; ++i) {
-        m[i] = k[i] >> down;
-    }
-    const auto minor = [](std::int64_t p, std::int64_t q, std::int64_t r, std::int64_t t) {
-        return (p * q - r * t) >> 28;
-    };
-    std::int64_t cofactors[6] = {minor(m[3], m[5], m[4], m[4]), minor(m[2], m[4], m[1], m[5]),
-                                 minor(m[1], m[4], m[2], m[3]), minor(m[0], m[5], m[2], m[2]),
-                                 minor(m[1], m[2], m[0], m[4]), minor(m[0], m[3], m[1], m[1])};
-    std::int64_t whole = (m[0] * cofactors[0] + m[1] * cofactors[1] + m[2] * cofactors[2]) >> 28;
-    if (whole < unit >> 14) {
-        whole = m[0] + m[3] + m[5];
-        for (int i = 0; i < 6; ++i) {
-            cofactors[i] = i == 0 || i == 3 || i == 5 ? unit : 0;
-        }
-    }
-    std::int64_t entries[6]; // 30 fraction bits, of units
-    std::int64_t size = 0;
-    for (int i = 0; i < 6; ++i) {
-        entries[i] = (cofactors[i] * (std::int64_t{1} << 30)) / whole;
-        size = std::max(size, entries[i] < 0 ? -entries[i] : entries[i]);
-    }
-    int narrowed = 0;
-    while (size >> narrowed >= std::int64_t{1} << 29) {
-        ++narrowed;
-    }
-    const auto part = [&](int i) { return static_cast<std::int32_t>(entries[i] >> narrowed); };
-    inverse = {part(0), part(1), part(2), part(3), part(4), part(5)};
-    // K is m · 2^(down − 30), and m in units is m · 2^-28.
-    shift = narrowed + 2 - down;
-}
-
-Vec3 scaled(const Vec3& v, int shift) {
-    const auto part = [shift](std::int64_t c) {
-        return shift >= 0 ? fixed::wrapping_multiply(c, std::int64_t{1} << shift)
-                          : fixed::shift_right_rounded(c, -shift);
-    };
-    return {part(v.x), part(v.y), part(v.z)};
-}
-
 // Soft joints and distances begin each substep anew, as XPBD has them.
 bool keeps_push(const Joint& joint) {
-    return joint.description.kind != LKS_JOINT_DISTANCE && joint.constants.softness == 0 &&
+    return joint.description.kind != LKS_JOINT_DISTANCE && joint.constants.points.softness == 0 &&
            joint.constants.angular_softness == 0;
 }
 
@@ -73,33 +23,16 @@ void push_apart(const Joint& joint, Body& a, Body& b, const Vec3& p) {
     push(b, joint.side_b, p, 1);
 }
 
-// c·C + α̃/(1+γ)·λ + γ/(1+γ)·Δ of XPBD's eq. 26.
-std::int64_t soften(const JointConstants& constants, std::int64_t error, std::int64_t motion,
-                    std::int64_t push) {
-    return fixed::scale_component(constants.error_share, error) +
-           fixed::multiply_shift(push, constants.softness, 30) +
-           fixed::scale_component(constants.motion_share, motion);
-}
-
-Vec3 soften(const JointConstants& constants, const Vec3& error, const Vec3& motion, const Vec3& push) {
-    return {soften(constants, error.x, motion.x, push.x), soften(constants, error.y, motion.y, push.y),
-            soften(constants, error.z, motion.z, push.z)};
-}
-
-// Errors beyond this are taken in several substeps: a bone that was torn 10 m away comes back at a bounded
-// speed.
-constexpr std::int64_t greatest_step = std::int64_t{1} << (world_fraction_bits - 1);
-
 // The points together, in all directions at once (XPBD eq. 18).
 void project_points(Joint& joint, Body& a, Body& b) {
     const Vec3 offset = joint_offset(joint, a, b);
     Vec3 error = offset - joint.start;
-    if (joint.constants.softness != 0) {
-        error = soften(joint.constants, error, offset - joint.begin, joint.push);
+    if (joint.constants.points.softness != 0) {
+        error = soften(joint.constants.points, error, offset - joint.begin, joint.push);
     }
     clamp_vector(error, greatest_step);
     const Vec3 before = joint.push;
-    joint.push = before - scaled(multiply(joint.inverse, error), joint.inverse_shift);
+    joint.push = before - solve(joint.inverse, error);
     clamp_vector(joint.push, greatest_push);
     push_apart(joint, a, b, joint.push - before);
 }
@@ -127,13 +60,13 @@ void project_distance(Joint& joint, Body& a, Body& b) {
         return;
     }
     error = std::clamp(error, -greatest_step, greatest_step);
-    std::int64_t weight = joint.constants.softness;
+    std::int64_t weight = joint.constants.points.softness;
     const Vec3 lever_a = fixed::rotate(a.rotation, d.point_a);
     const Vec3 lever_b = fixed::rotate(b.rotation, d.point_b);
     const RowSide side_a = push_side(a, joint.constants.shares.a, way.direction, lever_a, weight);
     const RowSide side_b = push_side(b, joint.constants.shares.b, way.direction, lever_b, weight);
     const std::int64_t motion = fixed::dot(way.direction, offset - joint.begin);
-    std::int64_t p = -divide(soften(joint.constants, error, motion, pushed), invert(weight));
+    std::int64_t p = -divide(soften(joint.constants.points, error, motion, pushed), invert(weight));
     if (!rod) {
         // A rope only pulls, a strut only pushes.
         const std::int64_t total =
@@ -172,11 +105,11 @@ void warm_start(Joint& joint, Body& a, Body& b) {
         joint.start = {0, 0, 0};
     }
     if (d.kind != LKS_JOINT_DISTANCE) {
-        const std::int64_t softness = joint.constants.softness;
+        const std::int64_t softness = joint.constants.points.softness;
         std::int64_t k[6] = {softness, 0, 0, softness, 0, softness};
         joint.side_a = block_side(a, joint.constants.shares.a, fixed::rotate(a.rotation, d.point_a), k);
         joint.side_b = block_side(b, joint.constants.shares.b, fixed::rotate(b.rotation, d.point_b), k);
-        invert_block(k, joint.inverse, joint.inverse_shift);
+        joint.inverse = invert_block(k);
         push_apart(joint, a, b, joint.push);
     }
 }
@@ -187,7 +120,7 @@ void undo_error(Joint& joint, Body& a, Body& b) {
     if (keeps_push(joint)) {
         Vec3 error = joint_offset(joint, a, b);
         clamp_vector(error, greatest_step);
-        push_apart(joint, a, b, -scaled(multiply(joint.inverse, error), joint.inverse_shift));
+        push_apart(joint, a, b, -solve(joint.inverse, error));
     }
     // Nobody does so behind it.
     for (Body* body : {&a, &b}) {

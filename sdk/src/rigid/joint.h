@@ -13,8 +13,8 @@
 
 #include <lockstitch/joint.h>
 
+#include "rigid/block.h"
 #include "rigid/body_motion.h"
-#include "rigid/pair.h"
 
 namespace lks {
 
@@ -68,15 +68,11 @@ struct JointConstants {
     SinCos half_max;
     std::int64_t twist_min; // World, radians
     std::int64_t twist_max;
-    // XPBD eq. 26 divided by 1 + γ: the shares of the error and of the substep's motion, and α̃ / (1 + γ); as
-    // softness counts in the greater inverse mass, 30 fraction bits.
-    std::int64_t softness;
-    std::int32_t error_share;
-    std::int32_t motion_share;
-    std::int64_t angular_softness;
-    std::int64_t drag_softness; // of angular damping; 0: none
-    std::int64_t grip;          // the greatest push of friction or motor in a substep: an angle, World
-    std::int64_t break_push;    // what `pushed` and `turned` bear; 0: everything
+    Softness points;
+    std::int64_t angular_softness; // as Softness has it, 30 fraction bits
+    std::int64_t drag_softness;    // of angular damping; 0: none
+    std::int64_t grip;             // the greatest push of friction or motor in a substep: an angle, World
+    std::int64_t break_push;       // what `pushed` and `turned` bear; 0: everything
     std::int64_t break_turn;
     std::int32_t motor_share; // what of its error the motor makes up for in a substep, 30 fraction bits
     int reach;                // of turns (rigid/pair.h)
@@ -109,8 +105,7 @@ struct Joint {
     fixed::Vec3 aim; // what the motor is to turn: half turns, Turn
     BlockSide side_a;
     BlockSide side_b;
-    SymmetricMatrix inverse; // K⁻¹ = inverse · 2^inverse_shift
-    std::int32_t inverse_shift;
+    BlockInverse inverse;
 };
 
 // The definition that a description came from, without bodies and points.

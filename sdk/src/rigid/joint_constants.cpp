@@ -28,15 +28,6 @@ Direction frame_axis(const fixed::Rotation& frame, int axis) {
     return {m.m[0][axis], m.m[1][axis], m.m[2][axis]};
 }
 
-fixed::Scaled world(std::int64_t value) {
-    return fixed::Scaled::from_fixed(static_cast<std::uint64_t>(value), world_fraction_bits);
-}
-
-// Softnesses and pushes beyond this make no difference any more.
-std::int64_t bounded(const fixed::Scaled& value, int fraction_bits) {
-    return std::min(value.to_i64_fixed(fraction_bits), std::int64_t{1} << 50);
-}
-
 void set_swing(JointConstants& c, const JointDescription& d) {
     const std::int64_t z = d.swing_limit_z < 0 ? d.swing_limit : d.swing_limit_z;
     c.swing_limited = d.kind == LKS_JOINT_BALL && std::min(d.swing_limit, z) < half_circle_degrees;
@@ -48,39 +39,28 @@ void set_swing(JointConstants& c, const JointDescription& d) {
     c.across_a[1] = frame_axis(d.frame_a, 2);
 }
 
-// The most that the pushes of a tick may add up to; 0: no limit.
-std::int64_t greatest_sum(std::int64_t limit, const fixed::Scaled& push_of_one) {
-    return limit == 0
-               ? 0
-               : std::max<std::int64_t>((world(limit) * push_of_one).to_i64_fixed(world_fraction_bits), 1);
-}
-
 // `greater` is the greater inverse mass.
 void set_forces(JointConstants& c, const JointDescription& d, const fixed::Scaled& greater,
                 const StepRate& rate) {
     const fixed::Scaled inverse_h = rate.inverse_h();
     const fixed::Scaled one = fixed::Scaled::from_u64(1);
     const fixed::Scaled by_reach = one.times_power_of_two(2 * c.reach);
-    const fixed::Scaled stretched = one + world(d.compliance) * world(d.damping) * inverse_h; // 1 + γ
-    c.error_share = static_cast<std::int32_t>((one / stretched).to_i64_fixed(30));
-    c.motion_share = direction_one - c.error_share;
-    c.softness = bounded(world(d.compliance) * inverse_h * inverse_h / greater / stretched, 30);
+    c.points = make_softness(d.compliance, d.damping, greater, rate);
     c.angular_softness =
-        bounded(world(d.angular_compliance) * inverse_h * inverse_h * by_reach / greater, 30);
+        bounded(world_value(d.angular_compliance) * inverse_h * inverse_h * by_reach / greater, 30);
     if (d.angular_damping != 0) {
-        c.drag_softness = bounded(by_reach * inverse_h / (world(d.angular_damping) * greater), 30);
+        c.drag_softness = bounded(by_reach * inverse_h / (world_value(d.angular_damping) * greater), 30);
         c.drag_softness = std::max<std::int64_t>(c.drag_softness, 1);
     }
     // A force F over a substep is a push of F·h²·w; a torque the same, of angles at a radius of 2^reach m.
     const fixed::Scaled force_push = greater / (inverse_h * inverse_h);
     const fixed::Scaled torque_push = force_push / by_reach;
-    const fixed::Scaled substeps = fixed::Scaled::from_u64(rate.substeps);
-    c.break_push = greatest_sum(d.break_force, force_push * substeps);
-    c.break_turn = greatest_sum(d.break_torque, torque_push * substeps);
+    c.break_push = greatest_sum(d.break_force, force_push, rate);
+    c.break_turn = greatest_sum(d.break_torque, torque_push, rate);
     const bool motor = d.motor_torque != 0;
-    c.grip = bounded(world(motor ? d.motor_torque : d.friction) * torque_push, world_fraction_bits);
+    c.grip = bounded(world_value(motor ? d.motor_torque : d.friction) * torque_push, world_fraction_bits);
     if (motor) {
-        const fixed::Scaled response = world(d.motor_response) * inverse_h; // in substeps
+        const fixed::Scaled response = world_value(d.motor_response) * inverse_h; // in substeps
         c.motor_share =
             response < one ? direction_one : static_cast<std::int32_t>((one / response).to_i64_fixed(30));
     }

@@ -1,0 +1,51 @@
+// Two points that are brought together in all three directions at once: K·p = −C with the 3×3 matrix
+// K = Σ wᵢ(1 − r̂ᵢ Ĵᵢ r̂ᵢ) of rigid/pair.h, and XPBD's compliance and damping for it.
+#pragma once
+
+#include "fixed/scaled.h"
+#include "rigid/inertia.h"
+#include "rigid/pair.h"
+#include "solver/step_rate.h"
+
+namespace lks {
+
+// K⁻¹ = matrix · 2^shift
+struct BlockInverse {
+    SymmetricMatrix matrix;
+    std::int32_t shift;
+};
+
+// Of a symmetric positive matrix with 30 fraction bits. Where it is too flat to be inverted in 32 bits, that
+// of its trace serves, which falls short but never goes too far.
+BlockInverse invert_block(const std::int64_t (&k)[6]);
+fixed::Vec3 solve(const BlockInverse& inverse, const fixed::Vec3& error);
+
+// XPBD eq. 26 divided by 1 + γ: the shares of the error and of the substep's motion, and α̃ / (1 + γ); as
+// softness counts in the greater inverse mass, 30 fraction bits.
+struct Softness {
+    std::int64_t softness = 0;
+    std::int32_t error_share = direction_one;
+    std::int32_t motion_share = 0;
+};
+
+// World m/N and N·s/m.
+Softness make_softness(std::int64_t compliance, std::int64_t damping,
+                       const fixed::Scaled& greater_inverse_mass, const StepRate& rate);
+// c·C + α̃/(1+γ)·λ + γ/(1+γ)·Δ.
+std::int64_t soften(const Softness& s, std::int64_t error, std::int64_t motion, std::int64_t push);
+fixed::Vec3 soften(const Softness& s, const fixed::Vec3& error, const fixed::Vec3& motion,
+                   const fixed::Vec3& push);
+
+// Softnesses and pushes beyond this make no difference any more.
+std::int64_t bounded(const fixed::Scaled& value, int fraction_bits);
+// A World value as a number.
+fixed::Scaled world_value(std::int64_t value);
+// The most that the pushes of a tick's substeps may add up to where a force, or torque, that pushes by
+// `push_of_one` a substep must not exceed the limit, World; 0: no limit.
+std::int64_t greatest_sum(std::int64_t limit, const fixed::Scaled& push_of_one, const StepRate& rate);
+
+// Errors beyond this are taken in several substeps: a bone that was torn 10 m away comes back at a bounded
+// speed.
+inline constexpr std::int64_t greatest_step = std::int64_t{1} << (world_fraction_bits - 1);
+
+} // namespace lks
