@@ -49,6 +49,10 @@ typedef struct lks_filter {
     int32_t group;
 } lks_filter;
 
+/* The category of all particles of cloths and ropes; their mask is everything. A body whose mask lacks it is
+ * not touched by them. */
+#define LKS_CATEGORY_PARTICLES 0x80000000u
+
 typedef struct lks_body_def {
     uint32_t struct_size;      /* set by lks_default_body_def */
     uint32_t kind;             /* an lks_body_kind */

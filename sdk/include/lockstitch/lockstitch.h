@@ -3,6 +3,7 @@
 #define LOCKSTITCH_LOCKSTITCH_H
 
 #include <lockstitch/asset.h>
+#include <lockstitch/attachment.h>
 #include <lockstitch/authoring.h>
 #include <lockstitch/base.h>
 #include <lockstitch/body.h>

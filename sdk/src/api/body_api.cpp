@@ -112,6 +112,7 @@ lks_result lks_world_remove_body(lks_world* world, lks_body_id body) {
     wake_neighbours(scene, body.index);
     scene.forget_contacts(body.index);
     forget_joints(scene, body.index);
+    forget_attachments(scene, body.index, false);
     scene.bodies[body.index] = Body{};
     scene.descriptions[body.index] = BodyDescription{};
     free_slot(scene.body_slots[body.index]);

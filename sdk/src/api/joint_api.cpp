@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "api/joint_checks.h"
+#include "api/read_out.h"
 #include "fixed/arc_tangent.h"
 #include "rigid/make_body.h"
 #include "rigid/sleep.h"
@@ -50,17 +51,6 @@ JointBodies bodies_of(const lks_world& world, const Joint& joint) {
 
 lks_fixed to_degrees(std::int64_t radians) {
     return fixed::multiply_divide(radians, LKS_FIXED(180), fixed::half_circle);
-}
-
-// value · factor with its sign, saturating.
-lks_vec3 times(const fixed::Vec3& v, const fixed::Scaled& factor) {
-    const auto part = [&](std::int64_t c) {
-        const fixed::Scaled size =
-            fixed::Scaled::from_fixed(fixed::magnitude(c), world_fraction_bits) * factor;
-        const std::int64_t value = std::min(size.to_i64_fixed(world_fraction_bits), LKS_FIXED(8388607));
-        return c < 0 ? -value : value;
-    };
-    return {part(v.x), part(v.y), part(v.z)};
 }
 
 // A checked motor.
@@ -198,10 +188,8 @@ lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lks_vec3* 
     }
     const Joint& found = world->rigid.joints[joint.index];
     const JointBodies bodies = bodies_of(*world, found);
-    const fixed::Scaled inverse_h = world->rate.inverse_h();
-    const fixed::Scaled factor = inverse_h * inverse_h /
-                                 greater_inverse_mass(found.constants.shares, bodies.a, bodies.b) /
-                                 fixed::Scaled::from_u64(world->rate.substeps);
+    const fixed::Scaled factor =
+        force_of_push(world->rate, greater_inverse_mass(found.constants.shares, bodies.a, bodies.b));
     if (force != nullptr) {
         *force = times(found.pushed, factor);
     }

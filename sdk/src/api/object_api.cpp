@@ -78,7 +78,8 @@ bool reserve_slot(lks_world& world, std::uint32_t index) {
     }
     if (world.objects.size() == world.objects.capacity()) {
         const std::size_t capacity = std::max<std::size_t>(16, 2 * world.objects.size());
-        return world.load_staging.reserve(capacity) && world.objects.reserve(capacity);
+        return world.load_staging.reserve(capacity) && world.rigid.reserve_objects(capacity) &&
+               world.objects.reserve(capacity);
     }
     return true;
 }

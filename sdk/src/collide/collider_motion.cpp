@@ -173,30 +173,23 @@ std::int64_t interpolate_position(std::int64_t a, std::int64_t b, std::uint32_t 
     return fixed::wrapping_add(fixed::wrapping_add(a, moved), fixed::wrapping_multiply(whole % n, j) / n);
 }
 
-ContactFrame make_contact_frame(const ColliderState& collider, std::uint32_t substep, std::uint32_t substeps,
-                                const fixed::Vec3& origin, const Bounds& bounds, std::int64_t margin,
-                                std::int64_t friction_factor) {
+ContactFrame make_contact_frame(const ShapeWay& way, const fixed::Vec3& origin, const Bounds& bounds,
+                                std::int64_t margin, std::int64_t friction_factor) {
     ContactFrame frame{};
-    frame.shape = collider.shape;
+    frame.shape = way.shape;
     frame.margin = margin;
-    frame.static_friction = combined_friction(collider.static_friction, friction_factor);
-    frame.dynamic_friction = combined_friction(collider.dynamic_friction, friction_factor);
-
-    const fixed::Vec3 start = position_at(collider, substep - 1, substeps);
-    const fixed::Vec3 end = position_at(collider, substep, substeps);
-    const fixed::Rotation start_rotation = rotation_at(collider, substep - 1, substeps);
-    const fixed::Rotation end_rotation = rotation_at(collider, substep, substeps);
-    frame.rotating = !(start_rotation == end_rotation);
-    frame.moving = frame.rotating || !(start == end);
-    frame.end_rotation = fixed::to_matrix(end_rotation);
-    frame.start_rotation = frame.rotating ? fixed::to_matrix(start_rotation) : frame.end_rotation;
-
-    if (collider.shape.kind == LKS_SHAPE_PLANE) {
-        frame.reachable = place_plane(frame, start, end, origin, bounds);
+    frame.static_friction = combined_friction(way.static_friction, friction_factor);
+    frame.dynamic_friction = combined_friction(way.dynamic_friction, friction_factor);
+    frame.rotating = way.rotating;
+    frame.moving = way.rotating || !(way.start == way.end);
+    frame.end_rotation = way.end_rotation;
+    frame.start_rotation = way.start_rotation;
+    if (way.shape.kind == LKS_SHAPE_PLANE) {
+        frame.reachable = place_plane(frame, way.start, way.end, origin, bounds);
         return frame;
     }
-    fixed::Vec3 start_centre = saturating_subtract(start, origin);
-    fixed::Vec3 end_centre = saturating_subtract(end, origin);
+    fixed::Vec3 start_centre = saturating_subtract(way.start, origin);
+    fixed::Vec3 end_centre = saturating_subtract(way.end, origin);
     if (!cut_to_limit(start_centre, end_centre)) {
         return frame;
     }
@@ -204,6 +197,23 @@ ContactFrame make_contact_frame(const ColliderState& collider, std::uint32_t sub
     frame.end_centre = to_coordinate(end_centre);
     place_box(frame, bounds);
     return frame;
+}
+
+ContactFrame make_contact_frame(const ColliderState& collider, std::uint32_t substep, std::uint32_t substeps,
+                                const fixed::Vec3& origin, const Bounds& bounds, std::int64_t margin,
+                                std::int64_t friction_factor) {
+    const fixed::Rotation start_rotation = rotation_at(collider, substep - 1, substeps);
+    const fixed::Rotation end_rotation = rotation_at(collider, substep, substeps);
+    ShapeWay way{};
+    way.shape = collider.shape;
+    way.start = position_at(collider, substep - 1, substeps);
+    way.end = position_at(collider, substep, substeps);
+    way.rotating = !(start_rotation == end_rotation);
+    way.end_rotation = fixed::to_matrix(end_rotation);
+    way.start_rotation = way.rotating ? fixed::to_matrix(start_rotation) : way.end_rotation;
+    way.static_friction = collider.static_friction;
+    way.dynamic_friction = collider.dynamic_friction;
+    return make_contact_frame(way, origin, bounds, margin, friction_factor);
 }
 
 } // namespace lks

@@ -66,8 +66,23 @@ struct ContactFrame {
     fixed::Vec3 box_high;
 };
 
-// `substep` counts from 1 to `substeps`. `bounds` contain the particles now and at the start of the substep,
-// in the object's coordinates around `origin`. `friction_factor` is the asset's, World.
+// A shape's way through one substep.
+struct ShapeWay {
+    Shape shape;
+    fixed::Vec3 start; // World
+    fixed::Vec3 end;
+    fixed::Matrix3 start_rotation;
+    fixed::Matrix3 end_rotation;
+    bool rotating;
+    std::int64_t static_friction; // World
+    std::int64_t dynamic_friction;
+};
+
+// `bounds` contain the particles now and at the start of the substep, in the object's coordinates around
+// `origin`. `friction_factor` is the asset's, World.
+ContactFrame make_contact_frame(const ShapeWay& way, const fixed::Vec3& origin, const Bounds& bounds,
+                                std::int64_t margin, std::int64_t friction_factor);
+// The same of a collider. `substep` counts from 1 to `substeps`.
 ContactFrame make_contact_frame(const ColliderState& collider, std::uint32_t substep, std::uint32_t substeps,
                                 const fixed::Vec3& origin, const Bounds& bounds, std::int64_t margin,
                                 std::int64_t friction_factor);

@@ -167,15 +167,21 @@ std::int64_t moved(std::int64_t position, std::int64_t by) {
 }
 
 void apply(const ContactFrame& frame, const Way& way, const Contact& contact, const ParticleArrays& particles,
-           std::uint32_t i) {
+           std::uint32_t i, ContactReaction* reaction) {
     const fixed::Vec3 push = fixed::scale(contact.normal, contact.depth) - friction(frame, way, contact);
-    const fixed::Vec3 correction = fixed::rotate(frame.end_rotation, push);
+    fixed::Vec3 correction = fixed::rotate(frame.end_rotation, push);
+    const fixed::Vec3 recovery =
+        contact.old_depth > 0
+            ? fixed::rotate(frame.end_rotation, fixed::scale(contact.normal, contact.old_depth))
+            : fixed::Vec3{0, 0, 0};
+    if (reaction != nullptr) {
+        // Recovering from an old overlap gives no speed, to neither of them.
+        correction = recovery + reaction->give_way(i, correction - recovery);
+    }
     particles.x[i] = moved(particles.x[i], correction.x);
     particles.y[i] = moved(particles.y[i], correction.y);
     particles.z[i] = moved(particles.z[i], correction.z);
     if (contact.old_depth > 0) {
-        const fixed::Vec3 recovery =
-            fixed::rotate(frame.end_rotation, fixed::scale(contact.normal, contact.old_depth));
         particles.start_x[i] = fixed::saturating_add(particles.start_x[i], recovery.x);
         particles.start_y[i] = fixed::saturating_add(particles.start_y[i], recovery.y);
         particles.start_z[i] = fixed::saturating_add(particles.start_z[i], recovery.z);
@@ -211,7 +217,8 @@ void visit_near(std::uint32_t first, std::uint32_t count, const Near& near, cons
 }
 
 template <lks_shape_kind kind>
-void resolve_solid_contact(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t i) {
+void resolve_solid_contact(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t i,
+                           ContactReaction* reaction) {
     const fixed::Vec3 position = {particles.x[i], particles.y[i], particles.z[i]};
     const fixed::Vec3 start = {particles.start_x[i], particles.start_y[i], particles.start_z[i]};
     if (frame.rotating && frame.has_box && misses_box(frame, position, start)) {
@@ -228,7 +235,7 @@ void resolve_solid_contact(const ContactFrame& frame, const ParticleArrays& part
     }
     Contact contact{};
     if (find_contact<kind>(frame, way, contact)) {
-        apply(frame, way, contact, particles, i);
+        apply(frame, way, contact, particles, i, reaction);
     }
 }
 
@@ -239,8 +246,8 @@ std::int32_t upper_half(std::int64_t coordinate) {
 // Most particles leave with the kernel's question.
 template <lks_shape_kind kind>
 void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                   std::uint32_t count, const Kernels& kernels) {
-    const auto resolve = [&](std::uint32_t i) { resolve_solid_contact<kind>(frame, particles, i); };
+                   std::uint32_t count, const Kernels& kernels, ContactReaction* reaction) {
+    const auto resolve = [&](std::uint32_t i) { resolve_solid_contact<kind>(frame, particles, i, reaction); };
     if (frame.rotating) {
         for (std::uint32_t i = first; i < first + count; ++i) {
             resolve(i);
@@ -259,7 +266,7 @@ void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, s
 
 // A plane is met only by what is below it in the end. Heights on 24 fraction bits decide for most.
 void resolve_plane(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                   std::uint32_t count, const Kernels& kernels) {
+                   std::uint32_t count, const Kernels& kernels, ContactReaction* reaction) {
     const fixed::Matrix3& r = frame.end_rotation;
     const fixed::Vec3& c = frame.end_centre;
     const std::int32_t a = r.m[0][1], b = r.m[1][1], d = r.m[2][1];
@@ -276,7 +283,7 @@ void resolve_plane(const ContactFrame& frame, const ParticleArrays& particles, s
         way.start = plane_local(frame.start_rotation, start, frame.start_centre);
         Contact contact{};
         if (find_plane_contact(frame, way, contact)) {
-            apply(frame, way, contact, particles, i);
+            apply(frame, way, contact, particles, i, reaction);
         }
     });
 }
@@ -284,19 +291,19 @@ void resolve_plane(const ContactFrame& frame, const ParticleArrays& particles, s
 } // namespace
 
 void resolve_contacts(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                      std::uint32_t count, const Kernels& kernels) {
+                      std::uint32_t count, const Kernels& kernels, ContactReaction* reaction) {
     if (!frame.reachable) {
         return;
     }
     switch (frame.shape.kind) {
     case LKS_SHAPE_PLANE:
-        return resolve_plane(frame, particles, first, count, kernels);
+        return resolve_plane(frame, particles, first, count, kernels, reaction);
     case LKS_SHAPE_SPHERE:
-        return resolve_solid<LKS_SHAPE_SPHERE>(frame, particles, first, count, kernels);
+        return resolve_solid<LKS_SHAPE_SPHERE>(frame, particles, first, count, kernels, reaction);
     case LKS_SHAPE_CAPSULE:
-        return resolve_solid<LKS_SHAPE_CAPSULE>(frame, particles, first, count, kernels);
+        return resolve_solid<LKS_SHAPE_CAPSULE>(frame, particles, first, count, kernels, reaction);
     default:
-        return resolve_solid<LKS_SHAPE_BOX>(frame, particles, first, count, kernels);
+        return resolve_solid<LKS_SHAPE_BOX>(frame, particles, first, count, kernels, reaction);
     }
 }
 

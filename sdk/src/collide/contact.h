@@ -35,9 +35,20 @@ struct ParticleArrays {
 // A hit is accepted this close in front of the surface (0.95 µm).
 inline constexpr std::int64_t contact_tolerance = coordinate_one >> 20;
 
-// Particles first .. first + count - 1. Each result depends on that particle and the frame only. Positions
+// What the shape does when a particle hits it: it may give way, and change the frame by it.
+class ContactReaction {
+public:
+    // The particle is to be moved by `correction` against the shape, Coordinate; returns its own part of it.
+    virtual fixed::Vec3 give_way(std::uint32_t particle, const fixed::Vec3& correction) = 0;
+
+protected:
+    ~ContactReaction() = default;
+};
+
+// Particles first .. first + count - 1. Each result depends on that particle and the frame only, and
+// with a reaction on the particles before it. Positions
 // that are pushed beyond ±coordinate_limit stop there. No undefined behaviour for any positions.
 void resolve_contacts(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                      std::uint32_t count, const Kernels& kernels);
+                      std::uint32_t count, const Kernels& kernels, ContactReaction* reaction = nullptr);
 
 } // namespace lks

@@ -70,7 +70,8 @@ struct Body {
     fixed::Rotation previous_rotation;
 
     // Of the tick and the substep at work.
-    bool touched; // by a contact that pushed at the end of the tick
+    std::int64_t struck; // asleep: how fast particles would have made it, World m/s
+    bool touched;        // by a contact that pushed at the end of the tick
     fixed::Vec3 tick_position;
     Quaternion tick_orientation;
     fixed::Vec3 start_position;

@@ -6,16 +6,17 @@ namespace lks {
 
 RigidScene::RigidScene(const lks_allocator& allocator)
     : body_slots(allocator), bodies(allocator), descriptions(allocator), joint_slots(allocator),
-      joints(allocator), memories(allocator), jointed(allocator), ticks(allocator),
-      collider_bodies(allocator), pieces(allocator), piece_starts(allocator), travels(allocator),
-      overlaps(allocator), boxed(allocator), pairs(allocator), contacts(allocator), next_memories(allocator),
-      islands(allocator), island_rests(allocator), loaded_kinds(allocator) {}
+      joints(allocator), memories(allocator), attachment_slots(allocator), attachments(allocator),
+      jointed(allocator), ticks(allocator), collider_bodies(allocator), pieces(allocator),
+      piece_starts(allocator), travels(allocator), overlaps(allocator), boxed(allocator), pairs(allocator),
+      contacts(allocator), next_memories(allocator), islands(allocator), island_rests(allocator),
+      is_coupled(allocator), coupled(allocator), object_pairs(allocator), loaded_kinds(allocator) {}
 
 bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
     if (body_count == 0) {
         return true;
     }
-    const std::size_t boxes = body_count + collider_count;
+    const std::size_t boxes = body_count + collider_count + object_room_;
     const bool done =
         body_slots.reserve(body_count) && bodies.reserve(body_count) && descriptions.reserve(body_count) &&
         ticks.reserve(body_count) && collider_bodies.reserve(collider_count) &&
@@ -24,7 +25,8 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         boxed.reserve(boxes) && pairs.reserve(pair_capacity(body_count)) &&
         contacts.reserve(contact_capacity(body_count)) && memories.reserve(contact_capacity(body_count)) &&
         next_memories.reserve(contact_capacity(body_count)) && loaded_kinds.reserve(body_count) &&
-        islands.reserve(body_count) && island_rests.reserve(body_count);
+        islands.reserve(body_count) && island_rests.reserve(body_count) &&
+        object_pairs.reserve(object_pair_capacity(object_room_, body_count));
     body_room_ = done ? std::max(body_room_, body_count) : body_room_;
     return done;
 }
@@ -32,6 +34,21 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
 bool RigidScene::reserve_joints(std::size_t count) {
     const bool done = joint_slots.reserve(count) && joints.reserve(count) && jointed.reserve(count);
     joint_room_ = done ? std::max(joint_room_, count) : joint_room_;
+    return done;
+}
+
+bool RigidScene::reserve_attachments(std::size_t count) {
+    const bool done = attachment_slots.reserve(count) && attachments.reserve(count);
+    attachment_room_ = done ? std::max(attachment_room_, count) : attachment_room_;
+    return done;
+}
+
+bool RigidScene::reserve_objects(std::size_t count) {
+    const std::size_t before = object_room_;
+    object_room_ = std::max(object_room_, count);
+    const bool done = is_coupled.reserve(count) && coupled.reserve(count) &&
+                      reserve(body_room_, collider_bodies.capacity());
+    object_room_ = done ? object_room_ : before;
     return done;
 }
 
@@ -50,6 +67,11 @@ void RigidScene::free_joint(std::uint32_t index) {
     joints[index] = Joint{};
 }
 
+void RigidScene::free_attachment(std::uint32_t index) {
+    free_slot(attachment_slots[index]);
+    attachments[index] = Attachment{};
+}
+
 void RigidScene::follow_joints() {
     jointed.clear();
     for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -61,6 +83,18 @@ void RigidScene::follow_joints() {
         }
     }
     std::sort(jointed.begin(), jointed.end());
+}
+
+void forget_attachments(RigidScene& scene, std::uint32_t index, bool of_object) {
+    for (std::uint32_t i = 0; i < scene.attachments.size(); ++i) {
+        const AttachmentDescription& d = scene.attachments[i].description;
+        const bool to_body = d.kind == LKS_ATTACHMENT_TO_BODY;
+        const bool held =
+            of_object ? d.object == index || (!to_body && d.other == index) : to_body && d.other == index;
+        if (scene.attachment_slots[i].used && held) {
+            scene.free_attachment(i);
+        }
+    }
 }
 
 } // namespace lks

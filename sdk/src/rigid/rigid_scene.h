@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "memory/array.h"
+#include "rigid/attachment.h"
 #include "rigid/body.h"
 #include "rigid/contact.h"
 #include "rigid/joint.h"
@@ -33,6 +34,8 @@ struct RigidScene {
     Array<Slot> joint_slots;
     Array<Joint> joints;
     Array<ContactMemory> memories;
+    Array<Slot> attachment_slots;
+    Array<Attachment> attachments;
 
     // Derived: body a << 32 | body b > a of joints whose bodies don't collide, ascending.
     Array<std::uint64_t> jointed;
@@ -50,26 +53,41 @@ struct RigidScene {
     Array<ContactMemory> next_memories;
     Array<std::uint32_t> islands;      // by body: towards the least index in its island
     Array<std::uint32_t> island_rests; // by body
+    // Objects that go through the tick together with bodies and with each other: a flag by slot, empty where
+    // there is none; their indices; and whom each may touch: object << 32 | body, ascending.
+    Array<std::uint8_t> is_coupled;
+    Array<std::uint32_t> coupled;
+    Array<std::uint64_t> object_pairs;
     Array<std::uint8_t>
         loaded_kinds; // scratch of a load: 1 + an lks_body_kind by body, 0 where there is none
 
     // Room for everything that a tick with so many slots may need. False: no memory.
     [[nodiscard]] bool reserve(std::size_t body_count, std::size_t collider_count);
     [[nodiscard]] bool reserve_joints(std::size_t count);
+    [[nodiscard]] bool reserve_attachments(std::size_t count);
+    [[nodiscard]] bool reserve_objects(std::size_t count);
     // How many slots everything has room for: where memory ran out, some arrays may have more.
     std::size_t body_room() const { return body_room_; }
     std::size_t joint_room() const { return joint_room_; }
+    std::size_t attachment_room() const { return attachment_room_; }
+    std::size_t object_room() const { return object_room_; }
     // What has pushed a body, or a collider | other_is_collider.
     void forget_contacts(std::uint32_t other);
     void free_joint(std::uint32_t index);
+    void free_attachment(std::uint32_t index);
     // After joints came or went.
     void follow_joints();
-    bool empty() const { return bodies.empty(); }
+    bool empty() const { return bodies.empty() && attachments.empty(); }
 
 private:
     std::size_t body_room_ = 0;
     std::size_t joint_room_ = 0;
+    std::size_t attachment_room_ = 0;
+    std::size_t object_room_ = 0;
 };
+
+// Those that hold the object, or the body.
+void forget_attachments(RigidScene& scene, std::uint32_t index, bool of_object);
 
 // How many pairs of bodies, and contacts of shapes, a tick has room for with so many slots.
 constexpr std::size_t pair_capacity(std::size_t bodies) {
@@ -77,6 +95,10 @@ constexpr std::size_t pair_capacity(std::size_t bodies) {
 }
 constexpr std::size_t contact_capacity(std::size_t bodies) {
     return 64 + 16 * bodies;
+}
+// How many pairs of objects and bodies.
+constexpr std::size_t object_pair_capacity(std::size_t objects, std::size_t bodies) {
+    return 64 + 8 * (objects + bodies);
 }
 
 } // namespace lks

@@ -3,7 +3,11 @@
 #include <algorithm>
 
 #include "rigid/contact_search.h"
+#include "rigid/coupling.h"
+#include "rigid/particle_contact.h"
 #include "rigid/sleep.h"
+#include "solver/object_tick.h"
+#include "solver/pins.h"
 #include "solver/world.h"
 
 namespace lks {
@@ -22,11 +26,15 @@ public:
     void run() {
         begin();
         wake_islands(world_);
-        if (!anything_moves()) {
+        const bool moves = anything_moves();
+        if (!moves && scene_.coupled.empty()) {
             return;
         }
         prepare();
-        find_contacts(world_);
+        scene_.contacts.clear();
+        if (moves) {
+            find_contacts(world_);
+        }
         // Those that it has woken, too.
         for (Body& body : scene_.bodies) {
             if (body.is_awake()) {
@@ -52,6 +60,41 @@ private:
 
     Body& body_a(const Joint& joint) { return scene_.bodies[joint.description.body_a]; }
     Body& body_b(const Joint& joint) { return scene_.bodies[joint.description.body_b]; }
+
+    template <typename Use>
+    void for_each_attachment(const Use& use) {
+        for (std::size_t i = 0; i < scene_.attachments.size(); ++i) {
+            if (scene_.attachment_slots[i].used) {
+                use(scene_.attachments[i], sides_of(world_, scene_.attachments[i]));
+            }
+        }
+    }
+
+    void project_attachments() {
+        for_each_attachment(
+            [](Attachment& attachment, const AttachmentSides& sides) { lks::project(attachment, sides); });
+    }
+
+    Object& coupled_object(std::uint32_t index) { return *world_.objects[index].object; }
+
+    // Cloth and ropes against colliders and bodies, so that a substep ends with nothing inside either.
+    void collide_objects(std::uint32_t substep) {
+        std::size_t pair = 0;
+        for (const std::uint32_t index : scene_.coupled) {
+            Object& object = coupled_object(index);
+            collide_object(world_, object, world_.scratch[0], substep);
+            bool touched = false;
+            for (; pair < scene_.object_pairs.size() && scene_.object_pairs[pair] >> 32 == index; ++pair) {
+                const auto body = static_cast<std::uint32_t>(scene_.object_pairs[pair]);
+                collide_with_body(object, scene_.bodies[body], scene_.descriptions[body], rate_,
+                                  *world_.kernels);
+                touched = true;
+            }
+            if (touched) {
+                place_pins(object, substep, world_.rate.substeps);
+            }
+        }
+    }
 
     bool is_at_work(std::size_t joint) const {
         const JointDescription& d = scene_.joints[joint].description;
@@ -111,6 +154,12 @@ private:
                 scene_.joints[i].turned = {0, 0, 0};
             }
         }
+        for (const std::uint32_t index : scene_.coupled) {
+            begin_object_tick(world_, coupled_object(index), world_.scratch[0]);
+        }
+        for_each_attachment([this](Attachment& attachment, const AttachmentSides& sides) {
+            begin_tick(attachment, sides, world_.rate);
+        });
     }
 
     void run_substep(std::uint32_t substep) {
@@ -129,6 +178,12 @@ private:
         }
         strike_all();
         predict(substep);
+        for (const std::uint32_t index : scene_.coupled) {
+            begin_object_substep(world_, coupled_object(index), world_.scratch[0], substep);
+        }
+        for_each_attachment([](Attachment& attachment, const AttachmentSides& sides) {
+            lks::begin_substep(attachment, sides);
+        });
         for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
             if (is_at_work(i)) {
                 Joint& joint = scene_.joints[i];
@@ -139,7 +194,11 @@ private:
             warm_start(contact, bodies_of(contact));
         }
         for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
+            for (const std::uint32_t index : scene_.coupled) {
+                project_object(world_, coupled_object(index), world_.scratch[0]);
+            }
             // Forward and back: a sweep in one direction only makes tall stacks sway.
+            project_attachments();
             for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
                 project_joint(i);
             }
@@ -152,6 +211,8 @@ private:
             for (std::size_t i = scene_.joints.size(); i-- > 0;) {
                 project_joint(i);
             }
+            project_attachments();
+            collide_objects(substep);
         }
         for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
             if (used(i) && scene_.bodies[i].is_awake()) {
@@ -169,6 +230,8 @@ private:
         for (const Contact& contact : scene_.contacts) {
             undo_overlap(contact, bodies_of(contact), rate_);
         }
+        for_each_attachment(
+            [](Attachment& attachment, const AttachmentSides&) { finish_substep(attachment); });
     }
 
     // An impact may cause the next one: forward and back, until nothing strikes any more.
@@ -209,7 +272,8 @@ private:
 
     void finish() {
         remember_contacts();
-        break_joints();
+        break_what_bears_too_much();
+        wake_for_particles();
         for (Body& body : scene_.bodies) {
             if (!body.is_dynamic()) {
                 body.target_orientation = body.orientation;
@@ -218,7 +282,7 @@ private:
         fall_asleep(world_);
     }
 
-    void break_joints() {
+    void break_what_bears_too_much() {
         bool any = false;
         for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
             if (is_at_work(i) && breaks(scene_.joints[i])) {
@@ -229,6 +293,27 @@ private:
         if (any) {
             scene_.follow_joints();
         }
+        for (std::uint32_t i = 0; i < scene_.attachments.size(); ++i) {
+            if (scene_.attachment_slots[i].used && lks::breaks(scene_.attachments[i])) {
+                scene_.free_attachment(i);
+            }
+        }
+    }
+
+    // What particles have struck, and what attachments hold, is awake.
+    void wake_for_particles() {
+        constexpr std::int64_t enough = (std::int64_t{1} << world_fraction_bits) / 50;
+        for (Body& body : scene_.bodies) {
+            if (body.struck > enough) {
+                wake(body);
+            }
+            body.struck = 0;
+        }
+        for_each_attachment([](Attachment& attachment, const AttachmentSides& sides) {
+            if (sides.body != nullptr && attachment.constants.movable != 0) {
+                sides.body->rest_ticks = 0;
+            }
+        });
     }
 
     // What pushed in this tick, and what holds sleeping bodies, in the order of keys.

@@ -160,4 +160,15 @@ Bounds Object::swept_bounds(std::uint32_t first, std::uint32_t particle_count) c
     return result;
 }
 
+std::int64_t Object::greatest_motion() const {
+    std::int64_t greatest = 0;
+    for (int i = 0; i < 3; ++i) {
+        for (std::uint32_t k = 0; k < count(); ++k) {
+            const std::int64_t motion = axis(i)[k] - start_axis(i)[k];
+            greatest = std::max(greatest, motion < 0 ? -motion : motion);
+        }
+    }
+    return greatest;
+}
+
 } // namespace lks

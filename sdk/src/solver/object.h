@@ -90,6 +90,8 @@ public:
     std::uint64_t shift_pin_targets(int axis, std::int64_t shift);
 
     Bounds bounds() const;
+    // Of any particle on any axis in the last substep.
+    std::int64_t greatest_motion() const;
     // Of where some of the particles are and were at the start of the substep.
     Bounds swept_bounds(std::uint32_t first, std::uint32_t count) const;
 

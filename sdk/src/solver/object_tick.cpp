@@ -27,22 +27,49 @@ public:
     }
 
     void run() {
+        find_candidates(begin(), world_.rate.substeps);
+        prepare_batches();
+        for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
+            begin_substep(substep);
+            for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
+                project_batches();
+                resolve_all_contacts(substep);
+            }
+        }
+    }
+
+    // Where its particles are at the beginning of the tick.
+    Bounds begin() {
         Bounds bounds = object_.bounds();
         follow_object(object_, bounds, scratch_.counters);
         object_.keep_previous();
         begin_pin_motion(object_);
         object_.record_pins();
-        find_candidates(bounds);
-        prepare_batches();
-        for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
-            run_substep(substep);
+        return bounds;
+    }
+
+    void begin_substep(std::uint32_t substep) {
+        predict();
+        place_pins(object_, substep, world_.rate.substeps);
+        if (!object_.multipliers.empty()) {
+            std::fill(object_.multipliers.begin(), object_.multipliers.end(), 0);
         }
     }
 
+    void project() {
+        prepare_batches();
+        project_batches();
+    }
+
+    void collide(std::uint32_t substep) {
+        find_candidates(object_.bounds(), 1);
+        resolve_all_contacts(substep);
+    }
+
 private:
-    // Colliders that the object can reach in this tick at its speed limit; each substep looks at its true
-    // bounds again.
-    void find_candidates(Bounds bounds) {
+    // Colliders that the object can reach in so many substeps at its speed limit; each substep looks at its
+    // true bounds again.
+    void find_candidates(Bounds bounds, std::uint32_t substeps) {
         scratch_.candidates.clear();
         if (world_.colliders.empty()) {
             return;
@@ -50,9 +77,7 @@ private:
         for (const Pin& pin : object_.pins()) {
             include(bounds, pin.target);
         }
-        const std::int64_t reach =
-            std::min(world_.rate.motion_limit, coordinate_limit / world_.rate.substeps) *
-            world_.rate.substeps;
+        const std::int64_t reach = std::min(world_.rate.motion_limit, coordinate_limit / substeps) * substeps;
         grow(bounds, reach);
         for (std::uint32_t i = 0; i < world_.colliders.size(); ++i) {
             const ColliderSlot& slot = world_.colliders[i];
@@ -62,24 +87,16 @@ private:
         }
     }
 
-    void run_substep(std::uint32_t substep) {
-        predict();
-        place_pins(object_, substep, world_.rate.substeps);
-        if (!object_.multipliers.empty()) {
-            std::fill(object_.multipliers.begin(), object_.multipliers.end(), 0);
-        }
-        for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
-            for (std::uint32_t batch = 0; batch < asset_.batches.size(); ++batch) {
-                project_batch(batch);
-            }
-            resolve_all_contacts(substep);
-        }
-    }
-
     void prepare_batches() {
         scratch_.batches.clear();
         for (std::uint32_t index = 0; index < asset_.batches.size(); ++index) {
             scratch_.batches.push_reserved(whole_batch(asset_, coefficients_, index, distance_arrays()));
+        }
+    }
+
+    void project_batches() {
+        for (std::uint32_t batch = 0; batch < asset_.batches.size(); ++batch) {
+            project_batch(batch);
         }
     }
 
@@ -249,6 +266,23 @@ private:
 
 void run_object_tick(const lks_world& world, Object& object, TickScratch& scratch, Team* team) {
     ObjectTick(world, object, scratch, team).run();
+}
+
+void begin_object_tick(const lks_world& world, Object& object, TickScratch& scratch) {
+    ObjectTick(world, object, scratch, nullptr).begin();
+}
+
+void begin_object_substep(const lks_world& world, Object& object, TickScratch& scratch,
+                          std::uint32_t substep) {
+    ObjectTick(world, object, scratch, nullptr).begin_substep(substep);
+}
+
+void project_object(const lks_world& world, Object& object, TickScratch& scratch) {
+    ObjectTick(world, object, scratch, nullptr).project();
+}
+
+void collide_object(const lks_world& world, Object& object, TickScratch& scratch, std::uint32_t substep) {
+    ObjectTick(world, object, scratch, nullptr).collide(substep);
 }
 
 } // namespace lks

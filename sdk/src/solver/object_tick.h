@@ -11,4 +11,13 @@ namespace lks {
 // team: null, or who helps with the blocks of each phase. The bits are the same.
 void run_object_tick(const lks_world& world, Object& object, TickScratch& scratch, Team* team);
 
+// The parts of a tick, for objects that go through it together with others and with bodies: the same bits.
+void begin_object_tick(const lks_world& world, Object& object, TickScratch& scratch);
+// 1 .. substeps: the prediction, and pins.
+void begin_object_substep(const lks_world& world, Object& object, TickScratch& scratch,
+                          std::uint32_t substep);
+// Then, in each iteration: the distance constraints, and the colliders.
+void project_object(const lks_world& world, Object& object, TickScratch& scratch);
+void collide_object(const lks_world& world, Object& object, TickScratch& scratch, std::uint32_t substep);
+
 } // namespace lks

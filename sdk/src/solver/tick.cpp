@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rigid/coupling.h"
 #include "rigid/rigid_tick.h"
 #include "solver/object_tick.h"
 #include "solver/world.h"
@@ -33,11 +34,16 @@ bool is_large(const Object& object) {
     return weight(object) >= large_weight;
 }
 
+// Coupled ones go with the bodies.
+bool runs_alone(const lks_world& world, std::size_t object) {
+    return world.objects[object].object != nullptr && !is_coupled(world.rigid, object);
+}
+
 // All objects by the caller alone.
 void run_objects(lks_world& world) {
-    for (ObjectSlot& slot : world.objects) {
-        if (slot.object != nullptr) {
-            run_object_tick(world, *slot.object, world.scratch[0], nullptr);
+    for (std::size_t i = 0; i < world.objects.size(); ++i) {
+        if (runs_alone(world, i)) {
+            run_object_tick(world, *world.objects[i].object, world.scratch[0], nullptr);
         }
     }
 }
@@ -53,16 +59,15 @@ void run_objects_by_team(lks_world& world, Team& team) {
     const auto run = [](void* argument, std::uint32_t block, std::uint32_t worker) {
         const Context& c = *static_cast<Context*>(argument);
         for (std::size_t i = block; i < c.world.objects.size(); i += c.blocks) {
-            Object* object = c.world.objects[i].object;
-            if (object != nullptr && !is_large(*object)) {
-                run_object_tick(c.world, *object, c.world.scratch[worker], nullptr);
+            if (runs_alone(c.world, i) && !is_large(*c.world.objects[i].object)) {
+                run_object_tick(c.world, *c.world.objects[i].object, c.world.scratch[worker], nullptr);
             }
         }
     };
     team.run({run, &context, context.blocks});
-    for (ObjectSlot& slot : world.objects) {
-        if (slot.object != nullptr && is_large(*slot.object)) {
-            run_object_tick(world, *slot.object, world.scratch[0], &team);
+    for (std::size_t i = 0; i < world.objects.size(); ++i) {
+        if (runs_alone(world, i) && is_large(*world.objects[i].object)) {
+            run_object_tick(world, *world.objects[i].object, world.scratch[0], &team);
         }
     }
 }
@@ -74,10 +79,10 @@ bool needs_team(const lks_world& world) {
     std::uint64_t total = 0;
     std::uint32_t count = 0;
     bool large = false;
-    for (const ObjectSlot& slot : world.objects) {
-        if (slot.object != nullptr) {
-            total += weight(*slot.object);
-            large = large || is_large(*slot.object);
+    for (std::size_t i = 0; i < world.objects.size(); ++i) {
+        if (runs_alone(world, i)) {
+            total += weight(*world.objects[i].object);
+            large = large || is_large(*world.objects[i].object);
             ++count;
         }
     }
@@ -109,6 +114,7 @@ void run_tick(lks_world& world) {
         slot.collider.previous_position = slot.collider.position;
         slot.collider.previous_rotation = slot.collider.rotation;
     }
+    find_coupled(world);
     if (needs_team(world)) {
         world.helpers.begin();
         run_objects_by_team(world, world.helpers.team());
@@ -116,8 +122,8 @@ void run_tick(lks_world& world) {
     } else {
         run_objects(world);
     }
-    collect_counters(world);
     run_rigid_tick(world);
+    collect_counters(world);
     finish_collider_motion(world);
     ++world.tick;
 }

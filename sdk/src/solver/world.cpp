@@ -73,6 +73,10 @@ bool lks_world::has_joint(lks_joint_id id) const {
     return lks::names_used(rigid.joint_slots, id);
 }
 
+bool lks_world::has_attachment(lks_attachment_id id) const {
+    return lks::names_used(rigid.attachment_slots, id);
+}
+
 bool lks_world::reserve_colliders(std::size_t count) {
     for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
         if (!scratch[worker].candidates.reserve(count)) {
@@ -141,6 +145,7 @@ void lks_world::destroy_object(Object* object) const {
 namespace lks {
 
 void free_object_slot(lks_world& world, std::uint32_t index) {
+    forget_attachments(world.rigid, index, true);
     ObjectSlot& slot = world.objects[index];
     world.destroy_object(slot.object);
     slot.object = nullptr;

@@ -91,6 +91,7 @@ struct lks_world {
     const lks::ColliderState* find_collider(lks_collider_id id) const;
     bool has_body(lks_body_id id) const;
     bool has_joint(lks_joint_id id) const;
+    bool has_attachment(lks_attachment_id id) const;
     lks_result stale_collider(lks_collider_id id) const;
 
     const lks::KnownAsset* find_asset(std::uint64_t fingerprint) const;

@@ -4,6 +4,7 @@
 //     objects    one a slot: generation, used; then, for the used ones, the object
 //     colliders  one a slot: generation, used; then, for the used ones, the collider
 //     bodies, joints, contacts  state/rigid_image.h
+//     attachments               state/attachment_image.h
 //
 // Every part is a multiple of 8 bytes. The checksum (XXH3) covers everything behind it. An object is its
 // settings, its pins, and its six arrays as they stand in memory.
@@ -34,7 +35,7 @@ struct ImageHeader {
     std::uint32_t body_slots;
     std::uint32_t joint_slots;
     std::uint32_t contact_count;
-    std::uint32_t reserved_count; // 0
+    std::uint32_t attachment_slots;
     std::uint64_t tick;
     fixed::Vec3 gravity;
 };

@@ -4,6 +4,7 @@
 
 #include "api/checks.h"
 #include "api/collider_checks.h"
+#include "state/attachment_image.h"
 #include "state/bytes.h"
 #include "state/hash.h"
 #include "state/image.h"
@@ -45,7 +46,7 @@ ImageHeader read_header(ByteReader& in) {
     header.body_slots = in.u32();
     header.joint_slots = in.u32();
     header.contact_count = in.u32();
-    header.reserved_count = in.u32();
+    header.attachment_slots = in.u32();
     header.tick = in.u64();
     header.gravity = read_vector(in);
     return header;
@@ -140,10 +141,10 @@ lks_result check_header(const lks_world& world, const ImageHeader& header, const
     if (header.iterations != world.rate.iterations) {
         return foreign(world, "number of iterations", header.iterations, world.rate.iterations);
     }
-    if (header.reserved != 0 || header.reserved_count != 0 || header.body_slots > LKS_MAX_BODIES ||
-        header.joint_slots > LKS_MAX_JOINTS || header.contact_count > contact_capacity(header.body_slots) ||
-        header.object_slots > LKS_MAX_OBJECTS || header.collider_slots > LKS_MAX_COLLIDERS ||
-        !within(header.gravity, LKS_FIXED(1000))) {
+    if (header.reserved != 0 || header.attachment_slots > LKS_MAX_ATTACHMENTS ||
+        header.body_slots > LKS_MAX_BODIES || header.joint_slots > LKS_MAX_JOINTS ||
+        header.contact_count > contact_capacity(header.body_slots) || header.object_slots > LKS_MAX_OBJECTS ||
+        header.collider_slots > LKS_MAX_COLLIDERS || !within(header.gravity, LKS_FIXED(1000))) {
         return corrupt(world, Sentence() << "A value in the image's header is out of range.");
     }
     return LKS_OK;
@@ -184,6 +185,10 @@ public:
             return corrupt(world_, Sentence() << "A value of " << what << " " << index
                                               << " in the image is out of range.");
         }
+        if (!check_attachments(in, header_.attachment_slots, world_, index)) {
+            return corrupt(world_, Sentence() << "A value of attachment " << index
+                                              << " in the image is out of range.");
+        }
         if (!in.complete() || in.left() != 0) {
             return corrupt(world_, Sentence() << "The image's parts do not add up to its size.");
         }
@@ -218,11 +223,14 @@ public:
             world_.colliders.push_reserved(slot);
         }
         read_rigid(in, counts(), world_.rate, world_.rigid);
+        read_attachments(in, header_.attachment_slots, world_);
     }
 
 private:
     bool reserve() {
         return world_.load_staging.reserve(header_.object_slots) &&
+               world_.rigid.reserve_objects(header_.object_slots) &&
+               world_.rigid.reserve_attachments(header_.attachment_slots) &&
                world_.objects.reserve(header_.object_slots) &&
                world_.reserve_colliders(header_.collider_slots) &&
                world_.rigid.reserve(header_.body_slots, world_.colliders.capacity()) &&

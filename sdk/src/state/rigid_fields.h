@@ -115,6 +115,22 @@ void joint_fields(Io& io, Joint& joint) {
 }
 
 template <typename Io>
+void attachment_fields(Io& io, Attachment& attachment) {
+    AttachmentDescription& d = attachment.description;
+    io.u32(d.kind);
+    io.u32(d.object);
+    io.u32(d.particle);
+    io.u32(d.other);
+    io.u32(d.other_particle);
+    io.u32(d.reserved);
+    vector_fields(io, d.point);
+    io.i64(d.compliance);
+    io.i64(d.damping);
+    io.i64(d.break_force);
+    vector_fields(io, attachment.pushed);
+}
+
+template <typename Io>
 void memory_fields(Io& io, ContactMemory& memory) {
     io.u32(memory.key.body_a);
     io.u32(memory.key.other);

@@ -3,45 +3,13 @@
 #include "api/body_checks.h"
 #include "api/joint_checks.h"
 #include "rigid/body_motion.h"
+#include "state/field_io.h"
+#include "state/image.h"
 #include "state/rigid_fields.h"
 
 namespace lks {
 namespace {
 
-class Writing {
-public:
-    explicit Writing(ByteWriter& out) : out_(out) {}
-    void u32(std::uint32_t value) { out_.u32(value); }
-    void i32(std::int32_t value) { out_.u32(static_cast<std::uint32_t>(value)); }
-    void i64(std::int64_t value) { out_.i64(value); }
-
-private:
-    ByteWriter& out_;
-};
-
-class Reading {
-public:
-    explicit Reading(ByteReader& in) : in_(in) {}
-    void u32(std::uint32_t& value) { value = in_.u32(); }
-    void i32(std::int32_t& value) { value = static_cast<std::int32_t>(in_.u32()); }
-    void i64(std::int64_t& value) { value = in_.i64(); }
-
-private:
-    ByteReader& in_;
-};
-
-class Hashing {
-public:
-    explicit Hashing(Hash& hash) : hash_(hash) {}
-    void u32(std::uint32_t value) { hash_.add_u32(value); }
-    void i32(std::int32_t value) { hash_.add_u32(static_cast<std::uint32_t>(value)); }
-    void i64(std::int64_t value) { hash_.add_i64(value); }
-
-private:
-    Hash& hash_;
-};
-
-constexpr std::size_t slot_size = 8;
 constexpr std::size_t shape_size = 8 + 24 + 16 + 16 + 24 + 8;
 constexpr std::size_t body_size =
     8 + LKS_MAX_BODY_SHAPES * shape_size + 7 * 8 + 16 + 3 * 24 + 3 * 32 + 2 * 24 + 8;
@@ -178,7 +146,7 @@ RigidCounts rigid_counts(const RigidScene& scene) {
 
 std::size_t rigid_image_size(const RigidScene& scene) {
     std::size_t size =
-        (scene.bodies.size() + scene.joints.size()) * slot_size + scene.memories.size() * memory_size;
+        (scene.bodies.size() + scene.joints.size()) * image_slot_size + scene.memories.size() * memory_size;
     for (const Slot& slot : scene.body_slots) {
         size += slot.used ? body_size : 0;
     }

@@ -1,3 +1,4 @@
+#include "state/attachment_image.h"
 #include "state/bytes.h"
 #include "state/hash.h"
 #include "state/image.h"
@@ -73,7 +74,7 @@ std::size_t image_size(const lks_world& world) {
     for (const ColliderSlot& slot : world.colliders) {
         size += slot.used ? image_collider_size : 0;
     }
-    return size + rigid_image_size(world.rigid);
+    return size + rigid_image_size(world.rigid) + attachments_image_size(world.rigid);
 }
 
 void write_image(const lks_world& world, unsigned char* memory) {
@@ -89,7 +90,7 @@ void write_image(const lks_world& world, unsigned char* memory) {
     out.u32(counts.bodies);
     out.u32(counts.joints);
     out.u32(counts.memories);
-    out.u32(0);
+    out.u32(static_cast<std::uint32_t>(world.rigid.attachments.size()));
     out.u64(world.tick);
     write_vector(out, world.gravity);
     for (const ObjectSlot& slot : world.objects) {
@@ -107,6 +108,7 @@ void write_image(const lks_world& world, unsigned char* memory) {
         }
     }
     write_rigid(out, world.rigid);
+    write_attachments(out, world.rigid);
     Hash checksum(*world.kernels);
     checksum.add_bytes(memory + image_checked_from, size - image_checked_from);
     ByteWriter front(memory);

@@ -1,5 +1,6 @@
 #include "state/state_hash.h"
 
+#include "state/attachment_image.h"
 #include "state/hash.h"
 #include "state/rigid_image.h"
 
@@ -86,6 +87,7 @@ std::uint64_t hash_world(const lks_world& world, bool local) {
         }
     }
     hash_rigid(hash, world.rigid, local);
+    hash_attachments(hash, world.rigid);
     return hash.finish();
 }
 

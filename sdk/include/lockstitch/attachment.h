@@ -1,0 +1,72 @@
+/* Lockstitch: attachments. A vertex of a cloth or a rope is held at a point of a body, or at another vertex:
+ * a rope's end in a hand, a cape on shoulders, two ropes tied together. Both sides pull each other.
+ *
+ * What is attached goes through each substep together with what it is attached to: cloth or rope first, then
+ * attachments in the order of their indices, joints and contacts, and attachments again. A body that an
+ * attachment holds does not fall asleep.
+ *
+ * Method: extended position based dynamics (Macklin et al. 2016, eq. 26), in all three directions at once.
+ */
+#ifndef LOCKSTITCH_ATTACHMENT_H
+#define LOCKSTITCH_ATTACHMENT_H
+
+#include <lockstitch/body.h>
+#include <lockstitch/object.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* By value; generation 0 is no attachment. */
+typedef struct lks_attachment_id {
+    uint32_t index;
+    uint32_t generation;
+} lks_attachment_id;
+
+#define LKS_MAX_ATTACHMENTS 65536u
+
+typedef enum lks_attachment_kind {
+    LKS_ATTACHMENT_TO_BODY = 0,  /* to `point` of `body` */
+    LKS_ATTACHMENT_TO_VERTEX = 1 /* to `other_vertex` of `other_object` */
+} lks_attachment_kind;
+
+typedef struct lks_attachment_def {
+    uint32_t struct_size; /* set by lks_default_attachment_def */
+    uint32_t kind;        /* an lks_attachment_kind */
+    lks_object_id object;
+    lks_body_id body;
+    lks_object_id other_object;
+    uint32_t vertex;
+    uint32_t other_vertex;
+    lks_vec3 point;        /* in the body's frame, metres, within ±64 m */
+    lks_fixed compliance;  /* m/N, 0 .. 1000 */
+    lks_fixed damping;     /* where it is soft, N·s/m, 0 .. 1000000 */
+    lks_fixed break_force; /* N, the mean of a tick: beyond it the attachment is removed, with an event;
+                              0 .. 8000000; 0: never */
+} lks_attachment_def;
+
+/* To a body, rigid, never breaks. */
+LKS_API lks_attachment_def lks_default_attachment_def(void);
+
+/* Takes the lowest free index. Everything is left where it is: what is apart is pulled together from the next
+ * tick on. Pinned vertices and kinematic bodies pull, but are not pulled; where neither side can move (yet)
+ * it is refused. */
+LKS_API lks_result lks_world_add_attachment(lks_world* world, const lks_attachment_def* def,
+                                            lks_attachment_id* attachment);
+/* Goes by itself with either side. */
+LKS_API lks_result lks_world_remove_attachment(lks_world* world, lks_attachment_id attachment);
+LKS_API uint32_t lks_world_has_attachment(const lks_world* world, lks_attachment_id attachment);
+LKS_API uint32_t lks_world_attachment_count(const lks_world* world);
+
+/* How far the two sides are apart, metres. */
+LKS_API lks_result lks_attachment_error(const lks_world* world, lks_attachment_id attachment,
+                                        lks_fixed* error);
+/* What it does to the body, or the other vertex, in world axes, newtons: the mean over the last tick.
+ * Saturates at ±8,388,607. */
+LKS_API lks_result lks_attachment_force(const lks_world* world, lks_attachment_id attachment,
+                                        lks_vec3* force);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

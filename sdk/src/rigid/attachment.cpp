@@ -1,0 +1,159 @@
+#include "rigid/attachment.h"
+
+#include <algorithm>
+
+#include "collide/saturation.h"
+#include "rigid/body_motion.h"
+#include "rigid/make_body.h"
+
+namespace lks {
+namespace {
+
+using fixed::Scaled;
+using fixed::Vec3;
+
+InverseMass to_inverse_mass(const Scaled& value) {
+    if (value.is_zero()) {
+        return {0, 0};
+    }
+    return {static_cast<std::uint32_t>(value.mantissa >> 32), value.exponent + 32};
+}
+
+Scaled to_scaled(const InverseMass& w) {
+    return Scaled::rounded({0, w.mantissa}, w.exponent);
+}
+
+InverseMass other_inverse_mass(const AttachmentDescription& d, const AttachmentSides& sides) {
+    return sides.body != nullptr ? sides.body->inverse_mass
+                                 : particle_inverse_mass(*sides.other, d.other_particle);
+}
+
+std::uint32_t movable(const AttachmentDescription& d, const AttachmentSides& sides) {
+    const bool particle = particle_inverse_mass(sides.object, d.particle).mantissa != 0;
+    const bool other = other_inverse_mass(d, sides).mantissa != 0;
+    return (particle ? 1u : 0u) | (other ? 2u : 0u);
+}
+
+Vec3 share_of(std::int32_t share, const Vec3& p) {
+    return {fixed::scale_component(share, p.x), fixed::scale_component(share, p.y),
+            fixed::scale_component(share, p.z)};
+}
+
+void push_apart(const Attachment& attachment, const AttachmentSides& sides, const Vec3& p) {
+    const AttachmentDescription& d = attachment.description;
+    const PairShares& shares = attachment.constants.shares;
+    move_particle(sides.object, d.particle, -share_of(shares.a, p));
+    if (sides.body != nullptr) {
+        push(*sides.body, attachment.side, p, 1);
+    } else {
+        move_particle(*sides.other, d.other_particle, share_of(shares.b, p));
+    }
+}
+
+} // namespace
+
+InverseMass particle_inverse_mass(const Object& object, std::uint32_t particle) {
+    return object.find_pin(particle) != nullptr ? InverseMass{0, 0}
+                                                : to_inverse_mass(object.asset().inverse_masses[particle]);
+}
+
+Vec3 particle_position(const Object& object, std::uint32_t particle) {
+    const Coordinates at = object.position(particle);
+    return object.origin + Vec3{at.x >> coordinate_from_world_shift, at.y >> coordinate_from_world_shift,
+                                at.z >> coordinate_from_world_shift};
+}
+
+void move_particle(Object& object, std::uint32_t particle, const Vec3& shift) {
+    // No more than the range is wide, so that nothing overflows.
+    constexpr std::int64_t most = std::int64_t{128} << world_fraction_bits;
+    const std::int64_t shifts[3] = {shift.x, shift.y, shift.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int64_t by =
+            std::clamp(shifts[axis], -most, most - 1) * (std::int64_t{1} << coordinate_from_world_shift);
+        std::int64_t& x = object.axis(axis)[particle];
+        x = std::clamp(fixed::saturating_add(x, by), -coordinate_limit, coordinate_limit);
+    }
+}
+
+Vec3 attachment_offset(const Attachment& attachment, const AttachmentSides& sides) {
+    const AttachmentDescription& d = attachment.description;
+    const Vec3 here = particle_position(sides.object, d.particle);
+    const Vec3 there = sides.body != nullptr
+                           ? sides.body->position + fixed::rotate(sides.body->rotation, d.point)
+                           : particle_position(*sides.other, d.other_particle);
+    return saturating_subtract(there, here);
+}
+
+AttachmentConstants make_attachment_constants(const AttachmentDescription& d, const AttachmentSides& sides,
+                                              const StepRate& rate) {
+    AttachmentConstants c{};
+    c.movable = movable(d, sides);
+    const InverseMass a = particle_inverse_mass(sides.object, d.particle);
+    const InverseMass b = other_inverse_mass(d, sides);
+    c.shares = pair_shares(a, b);
+    const Scaled greater = to_scaled(c.shares.a == direction_one ? a : b);
+    if (!greater.is_zero()) {
+        const Scaled inverse_h = rate.inverse_h();
+        c.softness = make_softness(d.compliance, d.damping, greater, rate);
+        c.break_push = greatest_sum(d.break_force, greater / (inverse_h * inverse_h), rate);
+    }
+    return c;
+}
+
+Scaled greater_inverse_mass(const Attachment& attachment, const AttachmentSides& sides) {
+    const AttachmentDescription& d = attachment.description;
+    return to_scaled(attachment.constants.shares.a == direction_one
+                         ? particle_inverse_mass(sides.object, d.particle)
+                         : other_inverse_mass(d, sides));
+}
+
+void begin_tick(Attachment& attachment, const AttachmentSides& sides, const StepRate& rate) {
+    attachment.pushed = {0, 0, 0};
+    if (attachment.constants.movable != movable(attachment.description, sides)) {
+        attachment.constants = make_attachment_constants(attachment.description, sides, rate);
+    }
+}
+
+void begin_substep(Attachment& attachment, const AttachmentSides& sides) {
+    const AttachmentConstants& c = attachment.constants;
+    attachment.push = {0, 0, 0};
+    attachment.begin = attachment_offset(attachment, sides);
+    const std::int64_t diagonal = c.softness.softness + c.shares.a + (sides.body == nullptr ? c.shares.b : 0);
+    std::int64_t k[6] = {diagonal, 0, 0, diagonal, 0, diagonal};
+    attachment.side = {};
+    if (sides.body != nullptr) {
+        const Vec3 lever = fixed::rotate(sides.body->rotation, attachment.description.point);
+        attachment.side = block_side(*sides.body, c.shares.b, lever, k);
+    }
+    if (c.movable != 0) {
+        attachment.inverse = invert_block(k);
+    }
+}
+
+void project(Attachment& attachment, const AttachmentSides& sides) {
+    if (attachment.constants.movable == 0) {
+        return;
+    }
+    const Softness& s = attachment.constants.softness;
+    const Vec3 offset = attachment_offset(attachment, sides);
+    Vec3 error = offset;
+    if (s.softness != 0) {
+        error = soften(s, offset, saturating_subtract(offset, attachment.begin), attachment.push);
+    }
+    clamp_vector(error, greatest_step);
+    const Vec3 before = attachment.push;
+    attachment.push = before - solve(attachment.inverse, error);
+    clamp_vector(attachment.push, greatest_push);
+    push_apart(attachment, sides, attachment.push - before);
+}
+
+void finish_substep(Attachment& attachment) {
+    attachment.pushed = attachment.pushed + attachment.push;
+}
+
+bool breaks(const Attachment& attachment) {
+    const std::int64_t most = attachment.constants.break_push;
+    return most != 0 && fixed::length(attachment.pushed) > static_cast<std::uint64_t>(most);
+}
+
+} // namespace lks

@@ -1,0 +1,79 @@
+// A particle that is held at a point of a body, or at another particle (lockstitch/attachment.h).
+//
+// Positions of particles are Coordinate values around their object's origin; here they are rounded down to
+// World, which the error and the pushes are in.
+#pragma once
+
+#include <lockstitch/attachment.h>
+
+#include "rigid/block.h"
+#include "solver/object.h"
+
+namespace lks {
+
+struct AttachmentDescription {
+    std::uint32_t kind; // lks_attachment_kind
+    std::uint32_t object;
+    std::uint32_t particle;
+    std::uint32_t other; // body, or object
+    std::uint32_t other_particle;
+    std::uint32_t reserved; // 0
+    fixed::Vec3 point; // World, from the body's centre of mass, in its frame
+    std::int64_t compliance;
+    std::int64_t damping;
+    std::int64_t break_force;
+};
+
+// What follows from the description and the masses.
+struct AttachmentConstants {
+    std::uint32_t movable; // bits: the particle, the other side
+    PairShares shares;
+    Softness softness;
+    std::int64_t break_push; // what `pushed` bears; 0: everything
+};
+
+struct Attachment {
+    AttachmentDescription description;
+    AttachmentConstants constants;
+
+    // State: what it pushed in the last tick, substeps added up; for reading out.
+    fixed::Vec3 pushed;
+
+    // Of the substep.
+    fixed::Vec3 push;
+    fixed::Vec3 begin; // how far it was apart at its beginning
+    BlockSide side;
+    BlockInverse inverse;
+};
+
+// The two sides; `body` or `other` is null.
+struct AttachmentSides {
+    Object& object;
+    Body* body;
+    Object* other;
+};
+
+// Zero where it is pinned, or infinitely heavy from the start.
+InverseMass particle_inverse_mass(const Object& object, std::uint32_t particle);
+AttachmentConstants make_attachment_constants(const AttachmentDescription& description,
+                                              const AttachmentSides& sides, const StepRate& rate);
+// The number that the shares are shares of, 1/kg.
+fixed::Scaled greater_inverse_mass(const Attachment& attachment, const AttachmentSides& sides);
+
+// Before a tick's substeps: what is pinned may have changed.
+void begin_tick(Attachment& attachment, const AttachmentSides& sides, const StepRate& rate);
+// After the prediction.
+void begin_substep(Attachment& attachment, const AttachmentSides& sides);
+void project(Attachment& attachment, const AttachmentSides& sides);
+// Adds up what it pushed.
+void finish_substep(Attachment& attachment);
+bool breaks(const Attachment& attachment);
+
+// How far the sides are apart in world axes: the other less the particle.
+fixed::Vec3 attachment_offset(const Attachment& attachment, const AttachmentSides& sides);
+// A particle in the world.
+fixed::Vec3 particle_position(const Object& object, std::uint32_t particle);
+// By a World shift; what leaves the object's range stops at its edge.
+void move_particle(Object& object, std::uint32_t particle, const fixed::Vec3& shift);
+
+} // namespace lks

@@ -1,0 +1,145 @@
+#include "rigid/coupling.h"
+
+#include <algorithm>
+
+#include "collide/saturation.h"
+
+namespace lks {
+namespace {
+
+using fixed::Vec3;
+
+// What is this near is looked at, whatever its speed: two centimetres.
+constexpr std::int64_t near = (std::int64_t{1} << world_fraction_bits) / 50;
+
+class Coupling {
+public:
+    explicit Coupling(lks_world& world) : world_(world), scene_(world.rigid) {
+        const Vec3& g = world.gravity;
+        const std::int64_t ticks = world.rate.ticks_per_second;
+        // Twice what gravity moves in a tick, of bodies with the greatest factor, too.
+        fall_ = sum_of_magnitudes(g) / ticks / ticks;
+    }
+
+    void find() {
+        scene_.coupled.clear();
+        scene_.object_pairs.clear();
+        scene_.is_coupled.clear();
+        if (scene_.empty() || world_.objects.empty()) {
+            return;
+        }
+        for (std::size_t i = 0; i < world_.objects.size(); ++i) {
+            scene_.is_coupled.push_reserved(0);
+        }
+        for (std::size_t i = 0; i < scene_.attachments.size(); ++i) {
+            if (scene_.attachment_slots[i].used) {
+                const AttachmentDescription& d = scene_.attachments[i].description;
+                scene_.is_coupled[d.object] = 1;
+                if (d.kind == LKS_ATTACHMENT_TO_VERTEX) {
+                    scene_.is_coupled[d.other] = 1;
+                }
+            }
+        }
+        if (!scene_.bodies.empty()) {
+            find_pairs();
+        }
+        for (std::uint32_t i = 0; i < scene_.is_coupled.size(); ++i) {
+            if (scene_.is_coupled[i] != 0) {
+                scene_.coupled.push_reserved(i);
+            }
+        }
+    }
+
+private:
+    static constexpr std::uint32_t object_flag = 0x80000000u;
+
+    std::int64_t per_tick(std::int64_t speed) const {
+        return speed / static_cast<std::int64_t>(world_.rate.ticks_per_second);
+    }
+
+    void find_pairs() {
+        scene_.overlaps.clear();
+        scene_.boxed.clear();
+        for (std::uint32_t i = 0; i < scene_.bodies.size(); ++i) {
+            if (scene_.body_slots[i].used &&
+                (scene_.descriptions[i].filter.mask & LKS_CATEGORY_PARTICLES) != 0) {
+                scene_.overlaps.add(box_of_body(scene_.bodies[i], scene_.descriptions[i]));
+                scene_.boxed.push_reserved(i);
+            }
+        }
+        for (std::uint32_t i = 0; i < world_.objects.size(); ++i) {
+            if (world_.objects[i].object != nullptr) {
+                scene_.overlaps.add(box_of_object(*world_.objects[i].object));
+                scene_.boxed.push_reserved(i | object_flag);
+            }
+        }
+        scene_.overlaps.for_each_pair(
+            [this](std::uint32_t i, std::uint32_t j) { add_pair(scene_.boxed[i], scene_.boxed[j]); });
+        std::sort(scene_.object_pairs.begin(), scene_.object_pairs.end());
+    }
+
+    // Bodies stand before objects.
+    void add_pair(std::uint32_t body, std::uint32_t object) {
+        if ((body & object_flag) != 0 || (object & object_flag) == 0) {
+            return;
+        }
+        if (scene_.object_pairs.size() == object_pair_capacity(world_.objects.size(), scene_.bodies.size())) {
+            ++world_.counters.lost_contacts;
+            return;
+        }
+        const std::uint64_t index = object & ~object_flag;
+        scene_.object_pairs.push_reserved(index << 32 | body);
+        scene_.is_coupled[index] = 1;
+    }
+
+    // However it turns.
+    Box box_of_body(const Body& body, const BodyDescription& description) const {
+        const std::int64_t speed = body.is_awake() ? per_tick(sum_of_magnitudes(body.velocity)) : 0;
+        const std::int64_t reach = description.radius + near + 2 * speed + fall_;
+        const auto low = [reach](std::int64_t p, std::int64_t q) { return std::min(p, q) - reach; };
+        const auto high = [reach](std::int64_t p, std::int64_t q) { return std::max(p, q) + reach; };
+        const Vec3& p = body.position;
+        const Vec3& q = body.is_dynamic() ? body.position : body.target_position;
+        return {{low(p.x, q.x), low(p.y, q.y), low(p.z, q.z)},
+                {high(p.x, q.x), high(p.y, q.y), high(p.z, q.z)}};
+    }
+
+    // Where its particles are, and may be at twice their speed.
+    Box box_of_object(const Object& object) const {
+        Bounds bounds = object.bounds();
+        for (const Pin& pin : object.pins()) {
+            bounds.low = {std::min(bounds.low.x, pin.target.x), std::min(bounds.low.y, pin.target.y),
+                          std::min(bounds.low.z, pin.target.z)};
+            bounds.high = {std::max(bounds.high.x, pin.target.x), std::max(bounds.high.y, pin.target.y),
+                           std::max(bounds.high.z, pin.target.z)};
+        }
+        const auto to_world = [](std::int64_t c) { return c >> coordinate_from_world_shift; };
+        const std::int64_t motion =
+            to_world(object.greatest_motion()) * static_cast<std::int64_t>(world_.rate.substeps);
+        const std::int64_t reach = near + fall_ + 2 * motion + to_world(object.asset().particle_radius) + 1;
+        const Vec3& o = object.origin;
+        return {{o.x + to_world(bounds.low.x) - reach, o.y + to_world(bounds.low.y) - reach,
+                 o.z + to_world(bounds.low.z) - reach},
+                {o.x + to_world(bounds.high.x) + reach, o.y + to_world(bounds.high.y) + reach,
+                 o.z + to_world(bounds.high.z) + reach}};
+    }
+
+    lks_world& world_;
+    RigidScene& scene_;
+    std::int64_t fall_;
+};
+
+} // namespace
+
+void find_coupled(lks_world& world) {
+    Coupling(world).find();
+}
+
+AttachmentSides sides_of(lks_world& world, const Attachment& attachment) {
+    const AttachmentDescription& d = attachment.description;
+    const bool to_body = d.kind == LKS_ATTACHMENT_TO_BODY;
+    return {*world.objects[d.object].object, to_body ? &world.rigid.bodies[d.other] : nullptr,
+            to_body ? nullptr : world.objects[d.other].object};
+}
+
+} // namespace lks

@@ -1,0 +1,24 @@
+// Which objects go through a tick together with bodies and with each other: those that attachments hold, and
+// those that may touch a body. All others need nobody.
+#pragma once
+
+#include "solver/world.h"
+
+namespace lks {
+
+// At the beginning of a tick: fills the scene's is_coupled, coupled and object_pairs. Pairs beyond their room
+// are left out and counted.
+void find_coupled(lks_world& world);
+
+inline bool is_coupled(const RigidScene& scene, std::size_t object) {
+    return !scene.is_coupled.empty() && scene.is_coupled[object] != 0;
+}
+
+// The two sides of an attachment in use.
+AttachmentSides sides_of(lks_world& world, const Attachment& attachment);
+// For reading.
+inline AttachmentSides sides_of(const lks_world& world, const Attachment& attachment) {
+    return sides_of(const_cast<lks_world&>(world), attachment);
+}
+
+} // namespace lks

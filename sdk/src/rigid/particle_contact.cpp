@@ -1,0 +1,148 @@
+#include "rigid/particle_contact.h"
+
+#include "collide/contact.h"
+#include "collide/saturation.h"
+#include "fixed/formats.h"
+#include "rigid/attachment.h"
+
+namespace lks {
+namespace {
+
+using fixed::Vec3;
+
+std::int64_t to_coordinate(std::int64_t world) {
+    return world * (std::int64_t{1} << coordinate_from_world_shift);
+}
+
+std::int64_t to_world(std::int64_t coordinate) {
+    return fixed::shift_right_rounded(coordinate, coordinate_from_world_shift);
+}
+
+// One shape of a body, in the coordinates of one object.
+class BodyShapePlace {
+public:
+    BodyShapePlace(const Body& body, const BodyShape& shape) : body_(body), shape_(shape) {}
+
+    fixed::Matrix3 axes(const fixed::Matrix3& rotation) const {
+        return shape_.rotation == fixed::identity_rotation()
+                   ? rotation
+                   : fixed::multiply(rotation, fixed::to_matrix(shape_.rotation));
+    }
+
+    ShapeWay way(const Surface& surface) const {
+        ShapeWay way{};
+        way.shape.kind = shape_.kind;
+        way.shape.radius = to_coordinate(shape_.radius);
+        way.shape.half_length = to_coordinate(shape_.half_length);
+        const Vec3& e = shape_.half_extents;
+        way.shape.half_extents = {to_coordinate(e.x), to_coordinate(e.y), to_coordinate(e.z)};
+        const bool still = body_.asleep != 0;
+        const Quaternion& start = still ? body_.orientation : body_.start_orientation;
+        const fixed::Matrix3 start_rotation = fixed::to_matrix(narrow(start));
+        way.start =
+            (still ? body_.position : body_.start_position) + fixed::rotate(start_rotation, shape_.position);
+        way.end = body_.position + fixed::rotate(body_.rotation, shape_.position);
+        way.rotating = !(narrow(start) == narrow(body_.orientation));
+        way.start_rotation = axes(start_rotation);
+        way.end_rotation = axes(body_.rotation);
+        way.static_friction = surface.static_friction;
+        way.dynamic_friction = surface.dynamic_friction;
+        return way;
+    }
+
+    // After the body has moved.
+    void follow(ContactFrame& frame, const Vec3& origin) const {
+        const Vec3 centre =
+            saturating_subtract(body_.position + fixed::rotate(body_.rotation, shape_.position), origin);
+        constexpr std::int64_t limit = std::int64_t{126} << world_fraction_bits;
+        Vec3 bounded = centre;
+        clamp_vector(bounded, limit);
+        frame.end_centre = {to_coordinate(bounded.x), to_coordinate(bounded.y), to_coordinate(bounded.z)};
+        frame.end_rotation = axes(body_.rotation);
+    }
+
+private:
+    const Body& body_;
+    const BodyShape& shape_;
+};
+
+// What hits it pushes it.
+class Pushed final : public ContactReaction {
+public:
+    Pushed(Object& object, Body& body, const BodyShapePlace& place, ContactFrame& frame)
+        : object_(object), body_(body), place_(place), frame_(frame) {}
+
+    Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
+        fixed::NormalisedVector way{};
+        if (!fixed::normalise(correction, way)) {
+            return correction;
+        }
+        const PairShares shares = pair_shares(particle_inverse_mass(object_, particle), body_.inverse_mass);
+        Vec3 lever = particle_position(object_, particle) - body_.position;
+        clamp_vector(lever, std::int64_t{64} << world_fraction_bits);
+        std::int64_t weight = shares.a;
+        const RowSide side = push_side(body_, shares.b, way.direction, lever, weight);
+        const std::int64_t p = divide(to_world(way.length), invert(weight));
+        push(body_, side, fixed::scale(way.direction, p), p, -1);
+        place_.follow(frame_, object_.origin);
+        return fixed::scale(way.direction, fixed::scale_component(shares.a, to_coordinate(p)));
+    }
+
+private:
+    Object& object_;
+    Body& body_;
+    const BodyShapePlace& place_;
+    ContactFrame& frame_;
+};
+
+// A sleeping one only takes down what has struck it: what lies on it does not, what falls on it does.
+class Struck final : public ContactReaction {
+public:
+    Struck(const Object& object, Body& body, const MotionRate& rate)
+        : object_(object), body_(body), rate_(rate),
+          least_(to_coordinate(LKS_FIXED_RATIO(1, 4) / rate.substeps_per_second)) {}
+
+    Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
+        const std::int64_t size = sum_of_magnitudes(correction);
+        if (size > least_) {
+            const PairShares shares =
+                pair_shares(particle_inverse_mass(object_, particle), body_.inverse_mass);
+            const std::int64_t moved = to_world(fixed::scale_component(shares.b, size));
+            body_.struck = fixed::saturating_add(body_.struck,
+                                                 fixed::multiply_shift(moved, rate_.substeps_per_second, 0));
+        }
+        return correction;
+    }
+
+private:
+    const Object& object_;
+    Body& body_;
+    const MotionRate& rate_;
+    std::int64_t least_;
+};
+
+} // namespace
+
+void collide_with_body(Object& object, Body& body, const BodyDescription& description, const MotionRate& rate,
+                       const Kernels& kernels) {
+    const ParticleArrays particles{object.axis(0),       object.axis(1),       object.axis(2),
+                                   object.start_axis(0), object.start_axis(1), object.start_axis(2)};
+    const lks_asset& asset = object.asset();
+    const Bounds bounds = object.swept_bounds(0, object.count());
+    for (std::uint32_t i = 0; i < description.shape_count; ++i) {
+        const BodyShapePlace place(body, description.shapes[i]);
+        ContactFrame frame = make_contact_frame(place.way(description.surface), object.origin, bounds,
+                                                asset.particle_radius, asset.friction);
+        if (!body.is_dynamic()) {
+            resolve_contacts(frame, particles, 0, object.count(), kernels);
+        } else if (body.asleep != 0) {
+            Struck struck(object, body, rate);
+            resolve_contacts(frame, particles, 0, object.count(), kernels, &struck);
+        } else {
+            Pushed pushed(object, body, place, frame);
+            resolve_contacts(frame, particles, 0, object.count(), kernels, &pushed);
+        }
+    }
+}
+
+} // namespace lks

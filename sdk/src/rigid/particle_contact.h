@@ -1,0 +1,18 @@
+// Cloth and ropes against bodies, both ways: a particle that hits a body is put in front of it as it is in
+// front of a collider (collide/contact.h), and of that correction each side takes what its mass leaves it:
+// Δx = D·w_p/W, and the body is pushed by D/W at the same place, with W of rigid/pair.h along D.
+#pragma once
+
+#include "kernels/kernels.h"
+#include "rigid/body_motion.h"
+#include "solver/object.h"
+#include "solver/step_rate.h"
+
+namespace lks {
+
+// All particles of the object against all shapes of the body, in this substep. A sleeping body does not give
+// way; how fast what struck it would have made it is added to its `struck`.
+void collide_with_body(Object& object, Body& body, const BodyDescription& description, const MotionRate& rate,
+                       const Kernels& kernels);
+
+} // namespace lks
