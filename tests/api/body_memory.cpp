@@ -3,6 +3,7 @@
 
 #include "support/allocator.h"
 #include "support/bodies.h"
+#include "support/builders.h"
 
 using namespace support;
 
@@ -21,6 +22,21 @@ void add_humanoid(const World& world, double height) {
     REQUIRE(humanoid.add(world) == LKS_OK);
 }
 
+// Over them, a corner in a hand.
+void add_cloth(World& world) {
+    Net net;
+    net.side = 12;
+    net.width = 1;
+    net.radius = 0.01;
+    lks_transform over = at(0.1, 4.2, 0);
+    REQUIRE(lks_rotation_from_axis_angle(1, 0, 0, -90, &over.rotation) == LKS_OK);
+    lks_attachment_def def = lks_default_attachment_def();
+    def.object = world.add(net.build(), over);
+    def.body = {LKS_HUMANOID_HAND_LEFT, 1};
+    lks_attachment_id id{};
+    REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
+}
+
 } // namespace
 
 TEST_CASE("no tick of bodies allocates or releases, and loading into a world that has them neither") {
@@ -30,6 +46,7 @@ TEST_CASE("no tick of bodies allocates or releases, and loading into a world tha
         add_ground(world);
         add_humanoid(world, 0.1);
         add_humanoid(world, 2.2);
+        add_cloth(world);
         world.step(10);
         const Image image = world.save();
         const std::uint64_t allocations = allocator.allocations();
@@ -54,6 +71,7 @@ TEST_CASE("what uninitialised memory holds changes no bit of bodies") {
         add_ground(world);
         add_humanoid(world, 0.1);
         add_humanoid(world, 2.2);
+        add_cloth(world);
         add_body(world, ball_shape(0.3), fixed(3, 1, 0));
         world.step(120);
         hashes[i++] = world.hash();

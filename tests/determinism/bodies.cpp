@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "support/bodies.h"
+#include "support/builders.h"
 
 using namespace support;
 
@@ -35,6 +36,7 @@ public:
         add_body(world, ball_shape(0.2), place(-2, 0.8, 3), ball);
         add_plank();
         add_links();
+        add_cloth_and_rope();
     }
 
     void tick(int count) {
@@ -44,10 +46,38 @@ public:
         }
     }
 
+    // What an image of it needs in an empty world.
+    static void know_assets(const World& world) {
+        REQUIRE(lks_world_register_asset(world, cloth()) == LKS_OK);
+        REQUIRE(lks_world_register_asset(world, rope()) == LKS_OK);
+    }
+
     World world;
     lks_body_id plank{};
 
 private:
+    static const Asset& cloth() {
+        static const Asset asset = [] {
+            Net net;
+            net.side = 10;
+            net.width = 1;
+            net.radius = 0.01;
+            return net.build();
+        }();
+        return asset;
+    }
+
+    static const Asset& rope() {
+        static const Asset asset = [] {
+            Chain chain;
+            chain.segments = 6;
+            chain.length = 0.6;
+            chain.particle_mass = 0.1;
+            return chain.build();
+        }();
+        return asset;
+    }
+
     static lks_world_def settings(std::uint32_t workers) {
         lks_world_def def = world_def(60, 6);
         def.worker_count = workers;
@@ -84,9 +114,45 @@ private:
             joint.frame_b.position = fixed(0, 0.1, 0);
             joint.distance_max = fixed(0.02);
             joint.compliance = i == 1 ? fixed(1e-4) : 0;
-            add_joint(world, joint, last, link);
+            joint.angular_damping = i == 2 ? fixed(0.01) : 0;
+            const lks_joint_id id = add_joint(world, joint, last, link);
+            motor_joint_ = i == 0 ? id : motor_joint_;
             last = link;
         }
+        last_link_ = last;
+        // A motor swings the first one.
+        const lks_motor motor{fixed(0.5), fixed(0.1), {0, 0, 1 << 29, 929887697}};
+        REQUIRE(lks_joint_set_motor(world, motor_joint_, &motor) == LKS_OK);
+    }
+
+    // A cloth falls over the humanoids, one of its corners on the last link by a soft attachment; a rope from
+    // the plank to the stack, with a second one tied to its middle.
+    void add_cloth_and_rope() {
+        lks_transform over{place(-0.4, 1.6, 0.5), {}};
+        REQUIRE(lks_rotation_from_axis_angle(1, 0, 0, -90, &over.rotation) == LKS_OK);
+        const lks_object_id sheet = world.add(cloth(), over);
+        const lks_object_id line = world.add(rope(), {place(3, 0.55, 0.3), {0, 0, 0, LKS_ROTATION_ONE}});
+        const lks_object_id branch = world.add(rope(), {place(3.3, 0.55, 0.3), {0, 0, 0, LKS_ROTATION_ONE}});
+        lks_attachment_def def = lks_default_attachment_def();
+        lks_attachment_id id{};
+        def.object = sheet;
+        def.vertex = 9;
+        def.body = last_link_;
+        def.compliance = fixed(0.01);
+        def.damping = fixed(5);
+        REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
+        def = lks_default_attachment_def();
+        def.object = line;
+        def.body = plank;
+        def.point = fixed(0, 0.05, 0.3);
+        REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
+        def.kind = LKS_ATTACHMENT_TO_VERTEX;
+        def.object = branch;
+        def.other_object = line;
+        def.other_vertex = 3;
+        def.body = {};
+        def.point = {};
+        REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
     }
 
     void give_inputs() {
@@ -102,6 +168,8 @@ private:
     }
 
     lks_vec3 offset_;
+    lks_body_id last_link_{};
+    lks_joint_id motor_joint_{};
 };
 
 } // namespace
@@ -116,6 +184,7 @@ TEST_CASE("bodies saved in the middle of a pile go on with the same bits, in a f
     REQUIRE(lks_world_load(dirty.world, image.data(), image.size()) == LKS_OK);
     REQUIRE(lks_world_load(fresh.world, image.data(), image.size()) == LKS_OK);
     World empty(world_def(60, 6));
+    Playground::know_assets(empty);
     REQUIRE(lks_world_load(empty, image.data(), image.size()) == LKS_OK);
     CHECK(empty.hash() == original.world.hash());
     CHECK(empty.save() == image);
@@ -172,6 +241,7 @@ TEST_CASE("a broken image of bodies is refused and leaves the world as it was") 
     playground.tick(30);
     const Image good = playground.world.save();
     World world(world_def(60, 6));
+    Playground::know_assets(world);
     REQUIRE(lks_world_load(world, good.data(), good.size()) == LKS_OK);
     const std::uint64_t hash = world.hash();
     Image bad = good;

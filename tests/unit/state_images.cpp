@@ -55,13 +55,38 @@ struct Small {
             joint.kind = kind;
             joint.distance_max = fixed(1);
             joint.bodies_collide = 1;
-            add_joint(world, joint, bodies[kind], bodies[kind + 1]);
+            const lks_joint_id id = add_joint(world, joint, bodies[kind], bodies[kind + 1]);
+            if (kind == LKS_JOINT_HINGE) {
+                const lks_motor motor{fixed(5), fixed(0.1), {0, 0, 0, LKS_ROTATION_ONE}};
+                REQUIRE(lks_joint_set_motor(world, id, &motor) == LKS_OK);
+            }
         }
         const lks_body_id left = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(30, 0.2, 0));
         const lks_body_id right = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(30, 0.599, 0));
         REQUIRE(lks_world_has_body(world, left) == 1);
         REQUIRE(lks_world_has_body(world, right) == 1);
         REQUIRE(lks_world_remove_body(world, bodies[0]) == LKS_OK);
+        attach(right);
+    }
+
+    // A free slot between one of each kind.
+    void attach(lks_body_id body) {
+        lks_attachment_def def = lks_default_attachment_def();
+        lks_attachment_id ids[3];
+        def.object = object;
+        def.vertex = 3;
+        def.body = body;
+        def.point = fixed(0.1, 0.2, 0);
+        def.compliance = fixed(0.01);
+        def.break_force = fixed(100);
+        REQUIRE(lks_world_add_attachment(world, &def, &ids[0]) == LKS_OK);
+        REQUIRE(lks_world_add_attachment(world, &def, &ids[1]) == LKS_OK);
+        def.kind = LKS_ATTACHMENT_TO_VERTEX;
+        def.other_object = object;
+        def.other_vertex = 9;
+        def.break_force = 0;
+        REQUIRE(lks_world_add_attachment(world, &def, &ids[2]) == LKS_OK);
+        REQUIRE(lks_world_remove_attachment(world, ids[1]) == LKS_OK);
     }
 };
 

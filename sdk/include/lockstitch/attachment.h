@@ -3,7 +3,7 @@
  *
  * What is attached goes through each substep together with what it is attached to: cloth or rope first, then
  * attachments in the order of their indices, joints and contacts, and attachments again. A body that an
- * attachment holds does not fall asleep.
+ * attachment holds does not fall asleep. An attached vertex does not collide with its body.
  *
  * Method: extended position based dynamics (Macklin et al. 2016, eq. 26), in all three directions at once.
  */

@@ -221,7 +221,8 @@ void resolve_solid_contact(const ContactFrame& frame, const ParticleArrays& part
                            ContactReaction* reaction) {
     const fixed::Vec3 position = {particles.x[i], particles.y[i], particles.z[i]};
     const fixed::Vec3 start = {particles.start_x[i], particles.start_y[i], particles.start_z[i]};
-    if (frame.rotating && frame.has_box && misses_box(frame, position, start)) {
+    if ((frame.rotating && frame.has_box && misses_box(frame, position, start)) ||
+        (reaction != nullptr && reaction->ignores(i))) {
         return;
     }
     Way way{};

@@ -38,6 +38,8 @@ inline constexpr std::int64_t contact_tolerance = coordinate_one >> 20;
 // What the shape does when a particle hits it: it may give way, and change the frame by it.
 class ContactReaction {
 public:
+    // True: this particle does not meet the shape.
+    virtual bool ignores(std::uint32_t particle) const = 0;
     // The particle is to be moved by `correction` against the shape, Coordinate; returns its own part of it.
     virtual fixed::Vec3 give_way(std::uint32_t particle, const fixed::Vec3& correction) = 0;
 

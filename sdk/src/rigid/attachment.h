@@ -6,6 +6,8 @@
 
 #include <lockstitch/attachment.h>
 
+#include <compare>
+
 #include "rigid/block.h"
 #include "solver/object.h"
 
@@ -18,7 +20,7 @@ struct AttachmentDescription {
     std::uint32_t other; // body, or object
     std::uint32_t other_particle;
     std::uint32_t reserved; // 0
-    fixed::Vec3 point; // World, from the body's centre of mass, in its frame
+    fixed::Vec3 point;      // World, from the body's centre of mass, in its frame
     std::int64_t compliance;
     std::int64_t damping;
     std::int64_t break_force;
@@ -51,6 +53,15 @@ struct AttachmentSides {
     Object& object;
     Body* body;
     Object* other;
+};
+
+// A particle that is attached to a body, and therefore does not collide with it.
+struct HeldParticle {
+    std::uint32_t object;
+    std::uint32_t body;
+    std::uint32_t particle;
+
+    friend constexpr auto operator<=>(const HeldParticle&, const HeldParticle&) = default;
 };
 
 // Zero where it is pinned, or infinitely heavy from the start.

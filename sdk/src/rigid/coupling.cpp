@@ -25,6 +25,7 @@ public:
         scene_.coupled.clear();
         scene_.object_pairs.clear();
         scene_.is_coupled.clear();
+        scene_.held.clear();
         if (scene_.empty() || world_.objects.empty()) {
             return;
         }
@@ -37,9 +38,12 @@ public:
                 scene_.is_coupled[d.object] = 1;
                 if (d.kind == LKS_ATTACHMENT_TO_VERTEX) {
                     scene_.is_coupled[d.other] = 1;
+                } else {
+                    scene_.held.push_reserved({d.object, d.other, d.particle});
                 }
             }
         }
+        std::sort(scene_.held.begin(), scene_.held.end());
         if (!scene_.bodies.empty()) {
             find_pairs();
         }

@@ -1,5 +1,7 @@
 #include "rigid/particle_contact.h"
 
+#include <algorithm>
+
 #include "collide/contact.h"
 #include "collide/saturation.h"
 #include "fixed/formats.h"
@@ -66,11 +68,28 @@ private:
     const BodyShape& shape_;
 };
 
-// What hits it pushes it.
-class Pushed final : public ContactReaction {
+class Reaction : public ContactReaction {
 public:
-    Pushed(Object& object, Body& body, const BodyShapePlace& place, ContactFrame& frame)
-        : object_(object), body_(body), place_(place), frame_(frame) {}
+    explicit Reaction(const HeldParticles& held) : held_(held) {}
+    bool ignores(std::uint32_t particle) const override { return held_.contain(particle); }
+
+private:
+    HeldParticles held_;
+};
+
+// A kinematic one goes its way.
+class Unmoved final : public Reaction {
+public:
+    using Reaction::Reaction;
+    Vec3 give_way(std::uint32_t, const Vec3& correction) override { return correction; }
+};
+
+// What hits it pushes it.
+class Pushed final : public Reaction {
+public:
+    Pushed(const HeldParticles& held, Object& object, Body& body, const BodyShapePlace& place,
+           ContactFrame& frame)
+        : Reaction(held), object_(object), body_(body), place_(place), frame_(frame) {}
 
     Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
         fixed::NormalisedVector way{};
@@ -96,10 +115,10 @@ private:
 };
 
 // A sleeping one only takes down what has struck it: what lies on it does not, what falls on it does.
-class Struck final : public ContactReaction {
+class Struck final : public Reaction {
 public:
-    Struck(const Object& object, Body& body, const MotionRate& rate)
-        : object_(object), body_(body), rate_(rate),
+    Struck(const HeldParticles& held, const Object& object, Body& body, const MotionRate& rate)
+        : Reaction(held), object_(object), body_(body), rate_(rate),
           least_(to_coordinate(LKS_FIXED_RATIO(1, 4) / rate.substeps_per_second)) {}
 
     Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
@@ -123,8 +142,17 @@ private:
 
 } // namespace
 
-void collide_with_body(Object& object, Body& body, const BodyDescription& description, const MotionRate& rate,
-                       const Kernels& kernels) {
+bool HeldParticles::contain(std::uint32_t particle) const {
+    return std::any_of(first, last, [particle](const HeldParticle& h) { return h.particle == particle; });
+}
+
+HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t object, std::uint32_t body) {
+    const HeldParticle* first = std::lower_bound(held.begin(), held.end(), HeldParticle{object, body, 0});
+    return {first, std::lower_bound(first, held.end(), HeldParticle{object, body, UINT32_MAX})};
+}
+
+void collide_with_body(Object& object, Body& body, const BodyDescription& description,
+                       const HeldParticles& held, const MotionRate& rate, const Kernels& kernels) {
     const ParticleArrays particles{object.axis(0),       object.axis(1),       object.axis(2),
                                    object.start_axis(0), object.start_axis(1), object.start_axis(2)};
     const lks_asset& asset = object.asset();
@@ -134,12 +162,13 @@ void collide_with_body(Object& object, Body& body, const BodyDescription& descri
         ContactFrame frame = make_contact_frame(place.way(description.surface), object.origin, bounds,
                                                 asset.particle_radius, asset.friction);
         if (!body.is_dynamic()) {
-            resolve_contacts(frame, particles, 0, object.count(), kernels);
+            Unmoved unmoved(held);
+            resolve_contacts(frame, particles, 0, object.count(), kernels, &unmoved);
         } else if (body.asleep != 0) {
-            Struck struck(object, body, rate);
+            Struck struck(held, object, body, rate);
             resolve_contacts(frame, particles, 0, object.count(), kernels, &struck);
         } else {
-            Pushed pushed(object, body, place, frame);
+            Pushed pushed(held, object, body, place, frame);
             resolve_contacts(frame, particles, 0, object.count(), kernels, &pushed);
         }
     }

@@ -4,15 +4,25 @@
 #pragma once
 
 #include "kernels/kernels.h"
+#include "rigid/attachment.h"
 #include "rigid/body_motion.h"
 #include "solver/object.h"
 #include "solver/step_rate.h"
 
 namespace lks {
 
+// Of one object and one body, ascending.
+struct HeldParticles {
+    const HeldParticle* first;
+    const HeldParticle* last;
+
+    bool contain(std::uint32_t particle) const;
+};
+HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t object, std::uint32_t body);
+
 // All particles of the object against all shapes of the body, in this substep. A sleeping body does not give
 // way; how fast what struck it would have made it is added to its `struck`.
-void collide_with_body(Object& object, Body& body, const BodyDescription& description, const MotionRate& rate,
-                       const Kernels& kernels);
+void collide_with_body(Object& object, Body& body, const BodyDescription& description,
+                       const HeldParticles& held, const MotionRate& rate, const Kernels& kernels);
 
 } // namespace lks

@@ -10,7 +10,8 @@ RigidScene::RigidScene(const lks_allocator& allocator)
       jointed(allocator), ticks(allocator), collider_bodies(allocator), pieces(allocator),
       piece_starts(allocator), travels(allocator), overlaps(allocator), boxed(allocator), pairs(allocator),
       contacts(allocator), next_memories(allocator), islands(allocator), island_rests(allocator),
-      is_coupled(allocator), coupled(allocator), object_pairs(allocator), loaded_kinds(allocator) {}
+      is_coupled(allocator), coupled(allocator), object_pairs(allocator), held(allocator),
+      loaded_kinds(allocator) {}
 
 bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
     if (body_count == 0) {
@@ -38,7 +39,7 @@ bool RigidScene::reserve_joints(std::size_t count) {
 }
 
 bool RigidScene::reserve_attachments(std::size_t count) {
-    const bool done = attachment_slots.reserve(count) && attachments.reserve(count);
+    const bool done = attachment_slots.reserve(count) && attachments.reserve(count) && held.reserve(count);
     attachment_room_ = done ? std::max(attachment_room_, count) : attachment_room_;
     return done;
 }

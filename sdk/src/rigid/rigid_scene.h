@@ -58,6 +58,7 @@ struct RigidScene {
     Array<std::uint8_t> is_coupled;
     Array<std::uint32_t> coupled;
     Array<std::uint64_t> object_pairs;
+    Array<HeldParticle> held; // ascending
     Array<std::uint8_t>
         loaded_kinds; // scratch of a load: 1 + an lks_body_kind by body, 0 where there is none
 

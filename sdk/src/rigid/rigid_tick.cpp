@@ -86,8 +86,8 @@ private:
             bool touched = false;
             for (; pair < scene_.object_pairs.size() && scene_.object_pairs[pair] >> 32 == index; ++pair) {
                 const auto body = static_cast<std::uint32_t>(scene_.object_pairs[pair]);
-                collide_with_body(object, scene_.bodies[body], scene_.descriptions[body], rate_,
-                                  *world_.kernels);
+                collide_with_body(object, scene_.bodies[body], scene_.descriptions[body],
+                                  held_particles(scene_.held, index, body), rate_, *world_.kernels);
                 touched = true;
             }
             if (touched) {

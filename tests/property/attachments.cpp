@@ -1,0 +1,353 @@
+// Cloth and ropes together with bodies: what is attached, and what hits.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/bodies.h"
+#include "support/builders.h"
+
+using namespace support;
+
+namespace {
+
+constexpr double g = 9.81;
+
+lks_attachment_id attach(const World& world, lks_attachment_def def) {
+    lks_attachment_id id{};
+    const lks_result result = lks_world_add_attachment(world, &def, &id);
+    INFO(world.message());
+    REQUIRE(result == LKS_OK);
+    return id;
+}
+
+lks_attachment_def to_body(lks_object_id object, std::uint32_t vertex, lks_body_id body,
+                           const lks_vec3& point = {}) {
+    lks_attachment_def def = lks_default_attachment_def();
+    def.object = object;
+    def.vertex = vertex;
+    def.body = body;
+    def.point = point;
+    return def;
+}
+
+lks_attachment_def to_vertex(lks_object_id object, std::uint32_t vertex, lks_object_id other,
+                             std::uint32_t other_vertex) {
+    lks_attachment_def def = lks_default_attachment_def();
+    def.kind = LKS_ATTACHMENT_TO_VERTEX;
+    def.object = object;
+    def.vertex = vertex;
+    def.other_object = other;
+    def.other_vertex = other_vertex;
+    return def;
+}
+
+double error_of(const World& world, lks_attachment_id id) {
+    lks_fixed error = 0;
+    REQUIRE(lks_attachment_error(world, id, &error) == LKS_OK);
+    return metres(error);
+}
+
+Vector force_of(const World& world, lks_attachment_id id) {
+    lks_vec3 force{};
+    REQUIRE(lks_attachment_force(world, id, &force) == LKS_OK);
+    return metres(force);
+}
+
+double mass_of(const World& world, lks_body_id body) {
+    lks_fixed mass = 0;
+    REQUIRE(lks_body_mass(world, body, &mass) == LKS_OK);
+    return metres(mass);
+}
+
+// The x momentum of particles of equal masses.
+Vector momentum_of(const World& world, lks_object_id object, double mass) {
+    Vector sum{};
+    for (const lks_vec3& velocity : world.velocities(object)) {
+        sum = sum + metres(velocity) * mass;
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("a ball hangs on a rope, which carries its weight") {
+    World world(world_def(60, 20));
+    Chain chain;
+    chain.segments = 10;
+    chain.length = 1;
+    chain.particle_mass = 0.5;
+    chain.direction = {0, -1, 0};
+    const Asset rope = chain.build();
+    const lks_object_id object = world.add(rope, at(0, 0, 0));
+    world.pin(object, 0);
+    lks_body_def def = lks_default_body_def();
+    def.linear_damping = fixed(1);
+    const lks_body_id ball = add_body(world, ball_shape(0.1, 2000), fixed(0, -1.1, 0), def);
+    const lks_attachment_id id = attach(world, to_body(object, 10, ball, fixed(0, 0.1, 0)));
+    const double weight = mass_of(world, ball) * g;
+    world.step(600);
+    CHECK(std::abs(force_of(world, id).y / -weight + 1) < 0.02);
+    CHECK(error_of(world, id) < 1e-4);
+    CHECK(std::abs(state_of(world, ball).position.y + 1.1) < 0.03);
+    CHECK(lks_body_is_awake(world, ball) == 1);
+    // Cut, it falls.
+    REQUIRE(lks_world_remove_attachment(world, id) == LKS_OK);
+    CHECK(lks_world_attachment_count(world) == 0);
+    world.step(60);
+    CHECK(state_of(world, ball).position.y < -4);
+}
+
+TEST_CASE("a rope and a body that pull each other keep their momentum") {
+    for (const double density : {20.0, 1000.0, 50000.0}) {
+        World world(world_def(60, 10));
+        REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
+        Chain chain;
+        chain.segments = 12;
+        chain.length = 1.2;
+        chain.particle_mass = 0.1;
+        const Asset rope = chain.build();
+        const lks_object_id object = world.add(rope, at(0, 0, 0));
+        lks_body_def def = lks_default_body_def();
+        def.velocity = fixed(2, 3, -1);
+        def.filter.mask = 0;
+        const lks_body_id ball = add_body(world, ball_shape(0.1, density), fixed(-0.1, 0, 0), def);
+        const lks_attachment_id id = attach(world, to_body(object, 0, ball, fixed(0.1, 0, 0)));
+        const double mass = mass_of(world, ball);
+        const Vector before = Vector{2, 3, -1} * mass;
+        world.step(300);
+        const Vector after = state_of(world, ball).velocity * mass + momentum_of(world, object, 0.1);
+        INFO("density " << density << ", off by " << (after - before).length() << " of " << before.length());
+        CHECK((after - before).length() < 1e-6 * before.length());
+        CHECK(momentum_of(world, object, 0.1).length() > 0.1);
+        CHECK(error_of(world, id) < 0.02);
+    }
+}
+
+TEST_CASE("a kinematic body takes a vertex with it exactly, and a pinned vertex a body") {
+    World world(world_def(60, 8));
+    Chain chain;
+    const Asset rope = chain.build();
+    const lks_object_id object = world.add(rope, at(0, 0, 0));
+    const lks_body_id hand = add_anchor(world, {});
+    const lks_attachment_id id = attach(world, to_body(object, 0, hand));
+    for (int tick = 1; tick <= 60; ++tick) {
+        REQUIRE(lks_body_move_to(world, hand, at(0.02 * tick, 0, 0)) == LKS_OK);
+        world.step();
+        CHECK(error_of(world, id) < 1e-9);
+    }
+    // The other way round.
+    const lks_object_id second = world.add(rope, at(0, 5, 0));
+    world.pin(second, 0);
+    const lks_body_id ball = add_body(world, ball_shape(0.1), fixed(0, 5, 0));
+    const lks_attachment_id held = attach(world, to_body(second, 0, ball));
+    world.step(120);
+    CHECK(error_of(world, held) < 1e-6);
+    CHECK(std::abs(force_of(world, held).y / (-mass_of(world, ball) * g) + 1) < 1e-3);
+}
+
+TEST_CASE("two ropes tied together hang as one") {
+    World world(world_def(60, 20));
+    Chain chain;
+    chain.segments = 5;
+    chain.length = 0.5;
+    chain.particle_mass = 0.1;
+    chain.direction = {0, -1, 0};
+    const Asset rope = chain.build();
+    const lks_object_id upper = world.add(rope, at(0, 0, 0));
+    const lks_object_id lower = world.add(rope, at(0, -0.5, 0));
+    world.pin(upper, 0);
+    const lks_attachment_id id = attach(world, to_vertex(lower, 0, upper, 5));
+    world.step(300);
+    CHECK(error_of(world, id) < 1e-6);
+    CHECK(std::abs(metres(world.positions(lower)[5].y) + 1) < 2e-3);
+    // The other side, the upper rope, is pulled down by the weight of the lower one.
+    CHECK(std::abs(force_of(world, id).y / (0.6 * g) + 1) < 0.02);
+    // A rope that goes takes its attachments with it.
+    REQUIRE(lks_world_remove_object(world, upper) == LKS_OK);
+    CHECK(lks_world_has_attachment(world, id) == 0);
+    world.step(10);
+}
+
+TEST_CASE("a soft attachment gives way by its compliance, and one that bears too much breaks") {
+    World world(world_def(60, 20));
+    const Asset point = loose_points({{0, 0, 0}, {9, 0, 0}}, {0.1, 0.1});
+    const lks_object_id object = world.add(point, at(0, 0, 0));
+    world.pin(object, 0);
+    lks_body_def def = lks_default_body_def();
+    def.linear_damping = fixed(2);
+    const lks_body_id ball = add_body(world, ball_shape(0.1), {}, def);
+    const double weight = mass_of(world, ball) * g;
+    lks_attachment_def soft = to_body(object, 0, ball);
+    soft.compliance = fixed(0.002);
+    const lks_attachment_id spring = attach(world, soft);
+    world.step(900);
+    CHECK(std::abs(error_of(world, spring) / (0.002 * weight) - 1) < 5e-3);
+    REQUIRE(lks_world_remove_attachment(world, spring) == LKS_OK);
+    for (const double strength : {1.05, 0.95}) {
+        lks_attachment_def weak = to_body(object, 0, ball);
+        weak.break_force = fixed(strength * weight);
+        REQUIRE(lks_body_set_transform(world, ball, at(0, 0, 0)) == LKS_OK);
+        REQUIRE(lks_body_set_velocity(world, ball, {}, {}) == LKS_OK);
+        const lks_attachment_id id = attach(world, weak);
+        world.step(60);
+        CHECK(lks_world_has_attachment(world, id) == (strength > 1 ? 1u : 0u));
+        if (strength > 1) {
+            REQUIRE(lks_world_remove_attachment(world, id) == LKS_OK);
+        }
+    }
+}
+
+TEST_CASE("cloth falls on a kinematic body as on a collider, to the bit") {
+    Net net;
+    net.side = 16;
+    net.width = 1;
+    net.radius = 0.01;
+    const Asset cloth = net.build();
+    const auto fall = [&](bool as_body) {
+        World world(world_def(60, 10));
+        const lks_object_id object = world.add(cloth, at(0.05, 0.9, 0.1));
+        if (as_body) {
+            lks_body_def def = lks_default_body_def();
+            def.kind = LKS_BODY_KINEMATIC;
+            add_body(world, ball_shape(0.3), {}, def);
+        } else {
+            lks_collider_def def = lks_default_collider_def();
+            def.shape = LKS_SHAPE_SPHERE;
+            def.radius = fixed(0.3);
+            def.static_friction = lks_default_body_def().static_friction;
+            def.dynamic_friction = lks_default_body_def().dynamic_friction;
+            world.add(def);
+        }
+        world.step(90);
+        return lks_object_hash(world, object);
+    };
+    CHECK(fall(true) == fall(false));
+}
+
+TEST_CASE("a cloth that is held catches a ball, which it does not let through") {
+    Net net;
+    net.side = 24;
+    net.width = 2;
+    net.particle_mass = 0.01;
+    net.radius = 0.02;
+    const Asset cloth = net.build();
+    World world(world_def(60, 20));
+    lks_transform lying = at(0, 0, 0);
+    REQUIRE(lks_rotation_from_axis_angle(1, 0, 0, -90, &lying.rotation) == LKS_OK);
+    const lks_object_id object = world.add(cloth, lying);
+    for (const std::uint32_t corner : {0u, 23u, 24u * 23, 24u * 24 - 1}) {
+        world.pin(object, corner);
+    }
+    const lks_body_id ball = add_body(world, ball_shape(0.2, 100), fixed(0.05, 1, -0.03));
+    double lowest = 1;
+    for (int tick = 0; tick < 360; ++tick) {
+        world.step();
+        lowest = std::min(lowest, state_of(world, ball).position.y);
+    }
+    INFO("lowest " << lowest);
+    CHECK(lowest > -1);
+    // It lies in the cloth; nothing of it is in the ball.
+    const Vector centre = state_of(world, ball).position;
+    double nearest = 1;
+    for (const lks_vec3& p : world.positions(object)) {
+        nearest = std::min(nearest, (metres(p) - centre).length());
+    }
+    CHECK(nearest > 0.2);
+    CHECK(nearest < 0.24);
+    CHECK(state_of(world, ball).velocity.length() < 0.5);
+}
+
+TEST_CASE("points that hit a free box hand their momentum on") {
+    // Off its middle, so that it turns, too. Frictionless and plastic.
+    World world(world_def(60, 20));
+    REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
+    lks_body_def def = lks_default_body_def();
+    def.static_friction = def.dynamic_friction = 0;
+    const lks_body_id box = add_body(world, box_shape(0.2, 0.2, 0.2, 100), {}, def);
+    const Asset points = loose_points({{0, 0, 0}, {0, 9, 0}}, {0.5, 0.5});
+    lks_object_def object = object_def(points, at(-1, 0.1, 0));
+    object.velocity = fixed(6, 0, 0);
+    const lks_object_id id = world.add(object);
+    world.step(30);
+    const double mass = mass_of(world, box);
+    const BodyState after = state_of(world, box);
+    const Vector point = metres(world.velocities(id)[0]);
+    INFO("box " << after.velocity.x << " m/s, spin " << after.spin.z << ", point " << point.x);
+    CHECK(std::abs(mass * after.velocity.x + 0.5 * point.x - 3) < 1e-6);
+    // ½ kg at 0.1 m: p = v / (1/m + 1/M + r²/I).
+    const double inertia = mass * 0.16 / 6;
+    const double impulse = 6 / (1 / 0.5 + 1 / mass + 0.01 / inertia);
+    CHECK(std::abs(mass * after.velocity.x - impulse) < 0.04 * impulse);
+    CHECK(std::abs(after.spin.z + 0.1 * impulse / inertia) < 0.04 * impulse / inertia);
+}
+
+TEST_CASE(
+    "a cloth that settles on a sleeping body leaves it asleep; a heavy point that falls on it wakes it") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    const lks_body_id box = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(0, 0.2, 0));
+    world.step(120);
+    REQUIRE(lks_body_is_awake(world, box) == 0);
+    Net net;
+    net.side = 12;
+    net.width = 0.8;
+    net.radius = 0.01;
+    const Asset cloth = net.build();
+    lks_transform lying = at(0, 0.45, 0);
+    REQUIRE(lks_rotation_from_axis_angle(1, 0, 0, -90, &lying.rotation) == LKS_OK);
+    const lks_object_id object = world.add(cloth, lying);
+    world.step(240);
+    CHECK(lks_body_is_awake(world, box) == 0);
+    double lowest = 1;
+    for (const lks_vec3& p : world.positions(object)) {
+        const bool above = std::abs(metres(p.x)) < 0.2 && std::abs(metres(p.z)) < 0.2;
+        lowest = above ? std::min(lowest, metres(p.y)) : lowest;
+    }
+    CHECK(std::abs(lowest - 0.41) < 1e-3);
+    const Asset stone = loose_points({{0, 0, 0}, {9, 0, 0}}, {5.0, 5.0}, 0.05);
+    world.add(stone, at(0.1, 1.5, 0));
+    bool woken = false;
+    for (int tick = 0; tick < 60; ++tick) {
+        world.step();
+        woken = woken || lks_body_is_awake(world, box) == 1;
+    }
+    CHECK(woken);
+}
+
+TEST_CASE("a fast body does not pass through a cloth, nor a fast point through a body") {
+    Net net;
+    net.side = 20;
+    net.width = 1;
+    net.particle_mass = 0.02;
+    net.radius = 0.03;
+    const Asset cloth = net.build();
+    World world(world_def(60, 20));
+    REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
+    const lks_object_id object = world.add(cloth, at(0, 0, 0));
+    lks_body_def def = lks_default_body_def();
+    def.velocity = fixed(0, 0, 15);
+    const lks_body_id ball = add_body(world, ball_shape(0.1, 100), fixed(0.02, 0.01, -1), def);
+    world.step(30);
+    double furthest = -100;
+    for (const lks_vec3& p : world.positions(object)) {
+        furthest = std::max(furthest, metres(p.z));
+    }
+    // It carries the cloth before it.
+    CHECK(furthest > state_of(world, ball).position.z);
+    CHECK(state_of(world, ball).velocity.z < 5);
+
+    World other(world_def(60, 8));
+    REQUIRE(lks_world_set_gravity(other, {0, 0, 0}) == LKS_OK);
+    def = lks_default_body_def();
+    def.never_sleeps = 1;
+    const lks_body_id wall = add_body(other, box_shape(0.05, 1, 1), {}, def);
+    const Asset points = loose_points({{0, 0, 0}, {0, 9, 0}}, {0.01, 0.01});
+    lks_object_def bullet = object_def(points, at(-8, 0.2, 0.3));
+    bullet.velocity = fixed(100, 0, 0);
+    const lks_object_id id = other.add(bullet);
+    other.step(30);
+    CHECK(metres(other.positions(id)[0].x) < state_of(other, wall).position.x);
+    CHECK(state_of(other, wall).velocity.x > 0);
+}
