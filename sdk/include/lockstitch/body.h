@@ -106,6 +106,12 @@ LKS_API lks_result lks_body_apply_impulse(lks_world* world, lks_body_id body, lk
  * rests there until the next call. At most 100 m and 90° a tick. */
 LKS_API lks_result lks_body_move_to(lks_world* world, lks_body_id body, lks_transform target);
 
+/* An lks_body_kind. What becomes dynamic keeps the velocity that it was moved with; what becomes kinematic
+ * rests where it is until it is moved. Joints and attachments stay. */
+LKS_API lks_result lks_body_set_kind(lks_world* world, lks_body_id body, uint32_t kind);
+/* LKS_BODY_DYNAMIC for a stale id. */
+LKS_API uint32_t lks_body_get_kind(const lks_world* world, lks_body_id body);
+
 /* Sleep. What has been slower than 10 cm/s, or within a centimetre and two degrees of one place, for half a
  * second, with all that it touches and is jointed to, is taken out of the simulation until something touches
  * it or the game does something to it: a sleeping pile costs next to nothing. Adding, moving or removing a

@@ -65,7 +65,7 @@ typedef struct lks_joint_def {
  * of the way after `response`. It holds against any load that its torque can bear. */
 typedef struct lks_motor {
     lks_fixed max_torque; /* N·m, 0 .. 1000000; 0: off */
-    lks_fixed response;   /* seconds, 0 .. 100; at least a substep */
+    lks_fixed response;   /* seconds, 0 .. 100; at least eight substeps */
     lks_rotation target;  /* of b's frame in a's; of a hinge its turn about the axis counts */
 } lks_motor;
 

@@ -26,7 +26,8 @@ typedef struct lks_bone {
     lks_fixed swing_limit;     /* degrees, as in lks_joint_def */
     lks_fixed twist_min;
     lks_fixed twist_max;
-    lks_fixed friction; /* N·m of the joint */
+    lks_fixed friction;     /* N·m of the joint */
+    lks_fixed motor_torque; /* N·m at scale 1, 0 .. 1000000: what lks_ragdoll_drive turns it with */
 } lks_bone;
 
 typedef struct lks_ragdoll_def {
@@ -49,6 +50,29 @@ LKS_API lks_ragdoll_def lks_default_ragdoll_def(void);
 LKS_API lks_result lks_world_add_ragdoll(lks_world* world, const lks_ragdoll_def* def, lks_body_id* bodies,
                                          lks_joint_id* joints);
 
+/* Poses: where bones are in the world, an array of `count` transforms in the order of `bodies`. Each call
+ * does all of it or nothing. */
+
+/* For skinning. */
+LKS_API lks_result lks_ragdoll_pose(const lks_world* world, const lks_body_id* bodies, uint32_t count,
+                                    lks_transform* pose);
+/* Puts bones there at once. `before` is the pose one tick earlier, from which dynamic bones get their
+ * velocities, clamped to the limits; null: they keep those they have. */
+LKS_API lks_result lks_ragdoll_set_pose(lks_world* world, const lks_body_id* bodies, uint32_t count,
+                                        const lks_transform* pose, const lks_transform* before);
+/* Kinematic bones: where they are to be at the end of the next tick, as lks_body_move_to has it. */
+LKS_API lks_result lks_ragdoll_move_to(lks_world* world, const lks_body_id* bodies, uint32_t count,
+                                       const lks_transform* pose);
+/* From animation to ragdoll, and back: lks_body_set_kind of all. */
+LKS_API lks_result lks_ragdoll_set_kind(lks_world* world, const lks_body_id* bodies, uint32_t count,
+                                        uint32_t kind);
+/* Powered: the motors of all joints turn the bones against each other as the pose has them (where it is in
+ * the world does not matter), with `strength` (0 .. 100) times their bones' motor_torque, which goes with the
+ * fourth power of the scale; 0: limp. `joints` and `pose` are those of lks_world_add_ragdoll. Fixed joints
+ * have no motors. */
+LKS_API lks_result lks_ragdoll_drive(lks_world* world, const lks_ragdoll_def* def, const lks_joint_id* joints,
+                                     const lks_transform* pose, lks_fixed strength, lks_fixed response);
+
 /* A human of 1.8 m and 78 kg, standing on the plane y = 0 and facing +z, arms hanging: 15 bones with limits
  * of a human's joints. */
 #define LKS_HUMANOID_BONES 15u
@@ -70,9 +94,21 @@ typedef enum lks_humanoid_bone {
     LKS_HUMANOID_FOOT_RIGHT = 14
 } lks_humanoid_bone;
 
-/* Their shapes too: the bones point into `shapes`. */
+/* Their shapes too: the bones point into `shapes`. The muscles (motor_torque) are those of a strong one. */
 LKS_API lks_result lks_humanoid(lks_bone bones[LKS_HUMANOID_BONES],
                                 lks_body_shape shapes[LKS_HUMANOID_BONES]);
+
+/* A spider of 1.1 m from foot to foot and 12 kg, standing on the plane y = 0 and facing +z: a thorax, an
+ * abdomen, and eight legs of a thigh and a shin, left front, left back, ... right front, right back. */
+#define LKS_SPIDER_LEGS 8u
+#define LKS_SPIDER_BONES 18u
+enum {
+    LKS_SPIDER_THORAX = 0,
+    LKS_SPIDER_ABDOMEN = 1,
+    LKS_SPIDER_FIRST_LEG = 2 /* thigh of leg n: 2 + 2 n, its shin: 3 + 2 n */
+};
+
+LKS_API lks_result lks_spider(lks_bone bones[LKS_SPIDER_BONES], lks_body_shape shapes[LKS_SPIDER_BONES]);
 
 #ifdef __cplusplus
 }

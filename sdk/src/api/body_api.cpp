@@ -33,6 +33,38 @@ void forget_joints(RigidScene& scene, std::uint32_t body) {
     scene.follow_joints();
 }
 
+// What it pushes, and is pushed by, is another now.
+void change_kind(lks_world& world, std::uint32_t index, std::uint32_t kind) {
+    RigidScene& scene = world.rigid;
+    Body& body = scene.bodies[index];
+    wake_neighbours(scene, index);
+    scene.forget_contacts(index);
+    scene.descriptions[index].kind = kind;
+    apply_description(body, scene.descriptions[index]);
+    wake(body);
+    body.target_position = body.position;
+    body.target_orientation = body.orientation;
+    body.rest_position = body.position;
+    body.rest_orientation = body.orientation;
+    if (kind == LKS_BODY_KINEMATIC) {
+        body.velocity = {0, 0, 0};
+        body.angular_velocity = {0, 0, 0};
+    }
+    clamp_vector(body.velocity, body_speed_limit(world.rate));
+    clamp_vector(body.angular_velocity, body_spin_limit(world.rate));
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        Joint& joint = scene.joints[i];
+        const JointDescription& d = joint.description;
+        if (scene.joint_slots[i].used && (d.body_a == index || d.body_b == index)) {
+            wake(scene.bodies[d.body_a]);
+            wake(scene.bodies[d.body_b]);
+            joint.constants =
+                make_joint_constants(d, scene.bodies[d.body_a], scene.bodies[d.body_b], world.rate);
+            forget_pushes(joint);
+        }
+    }
+}
+
 lks_transform transform_of(const Body& body, const BodyDescription& description) {
     const fixed::Rotation q = narrow(body.orientation);
     lks_transform transform{};
@@ -239,6 +271,25 @@ lks_result lks_body_move_to(lks_world* world, lks_body_id body, lks_transform ta
     found.target_position = there.position;
     found.target_orientation = there.orientation;
     return LKS_OK;
+}
+
+lks_result lks_body_set_kind(lks_world* world, lks_body_id body, uint32_t kind) {
+    if (const lks_result result = require_body(world, body); result != LKS_OK) {
+        return result;
+    }
+    if (kind > LKS_BODY_KINEMATIC) {
+        return world->fail(LKS_ERROR_INVALID_ARGUMENT,
+                           Sentence() << "The body's kind is " << kind << "; it must be 0 or 1.");
+    }
+    if (world->rigid.descriptions[body.index].kind != kind) {
+        change_kind(*world, body.index, kind);
+    }
+    return LKS_OK;
+}
+
+uint32_t lks_body_get_kind(const lks_world* world, lks_body_id body) {
+    return world != nullptr && world->has_body(body) ? world->rigid.descriptions[body.index].kind
+                                                     : static_cast<std::uint32_t>(LKS_BODY_DYNAMIC);
 }
 
 uint32_t lks_body_is_awake(const lks_world* world, lks_body_id body) {

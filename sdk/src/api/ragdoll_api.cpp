@@ -144,6 +144,12 @@ lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
             return result;
         }
     }
+    for (std::uint32_t i = 0; i < def.bone_count; ++i) {
+        const Number torque{"bone's motor_torque", " N·m", def.bones[i].motor_torque, 0, LKS_FIXED(1000000)};
+        if (const lks_result result = check_numbers(world, &torque, 1); result != LKS_OK) {
+            return result;
+        }
+    }
     const RigidScene& scene = world.rigid;
     if (scene.bodies.size() + def.bone_count > LKS_MAX_BODIES ||
         scene.joints.size() + def.bone_count > LKS_MAX_JOINTS) {

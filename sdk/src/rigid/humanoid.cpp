@@ -57,6 +57,10 @@ constexpr Part parts[LKS_HUMANOID_BONES] = {
      200},
 };
 
+// What its muscles turn each bone with, newton metres.
+constexpr std::int32_t torques[LKS_HUMANOID_BONES] = {0,  300, 50,  100, 70,  20,  100, 70,
+                                                      20, 250, 200, 100, 250, 200, 100};
+
 // By -90° about z: local y along x, the axis of elbows and knees.
 constexpr std::int32_t cos_45 = 759250125;
 constexpr lks_rotation sideways = {0, 0, -cos_45, cos_45};
@@ -93,6 +97,7 @@ extern "C" lks_result lks_humanoid(lks_bone bones[LKS_HUMANOID_BONES],
         bone.twist_min = LKS_FIXED(part.twist_min);
         bone.twist_max = LKS_FIXED(part.twist_max);
         bone.friction = LKS_FIXED_RATIO(part.friction, 100);
+        bone.motor_torque = LKS_FIXED(torques[i]);
     }
     return LKS_OK;
 }

@@ -113,6 +113,9 @@ lks_joint_def define_joint(const JointDescription& description);
 JointConstants make_joint_constants(const JointDescription& description, const Body& a, const Body& b,
                                     const StepRate& rate);
 
+// Where its masses are others now: what it pushed says nothing any more.
+void forget_pushes(Joint& joint);
+
 // Before the bodies are predicted.
 void begin_substep(Joint& joint, const Body& a, const Body& b);
 // Once they are: K, and the pushes of the substep before.

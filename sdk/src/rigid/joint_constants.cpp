@@ -61,8 +61,10 @@ void set_forces(JointConstants& c, const JointDescription& d, const fixed::Scale
     c.grip = bounded(world_value(motor ? d.motor_torque : d.friction) * torque_push, world_fraction_bits);
     if (motor) {
         const fixed::Scaled response = world_value(d.motor_response) * inverse_h; // in substeps
+        // What is to be made up for in a substep must be less than what swings lose in it.
+        const fixed::Scaled least = fixed::Scaled::from_u64(8);
         c.motor_share =
-            response < one ? direction_one : static_cast<std::int32_t>((one / response).to_i64_fixed(30));
+            static_cast<std::int32_t>((one / (response < least ? least : response)).to_i64_fixed(30));
     }
 }
 

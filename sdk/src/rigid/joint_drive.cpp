@@ -88,9 +88,14 @@ void warm_start_drive(Joint& joint, Body& a, Body& b) {
     joint.drag = {0, 0, 0};
     if (joint.constants.grip == 0) {
         joint.grip = {0, 0, 0};
-    } else {
-        turn_apart(joint, a, b, joint.grip);
+        return;
     }
+    if (joint.description.motor_torque != 0) {
+        const std::int32_t kept = direction_one - 2 * joint.constants.motor_share;
+        const auto part = [kept](std::int64_t c) { return fixed::scale_component(kept, c); };
+        joint.grip = {part(joint.grip.x), part(joint.grip.y), part(joint.grip.z)};
+    }
+    turn_apart(joint, a, b, joint.grip);
 }
 
 void project_drive(Joint& joint, Body& a, Body& b) {

@@ -3,6 +3,13 @@
 // Friction and a motor are one constraint: within a substep b turns against a by as much as the motor aims
 // at, or not at all, as far as the greatest torque allows. It begins with the push of the substep before, so
 // an arm that is held up stays where it is.
+//
+// A motor's push loses a share on the way, twice the share of its error that it makes up for in a substep. A
+// row knows its two bones only, not what hangs on them: it turns less than it means to, and with the whole
+// push carried on it answers late, as an undamped spring, which swings when a target is followed faster than
+// its own damping (a spider's legs threw it 50 m up). With the loss such swings die out, whatever hangs
+// there; what it leaves of a load M is a sag of 2·M·h²·w, w being the joint's inverse inertia about that
+// axis.
 #pragma once
 
 #include "rigid/joint.h"

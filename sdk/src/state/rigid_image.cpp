@@ -103,17 +103,15 @@ bool joint_is_valid(const lks_world& world, const Joint& joint, const Array<std:
         kinds[d.body_b] == 0) {
         return false;
     }
-    const bool moves = kinds[d.body_a] == 1 + LKS_BODY_DYNAMIC || kinds[d.body_b] == 1 + LKS_BODY_DYNAMIC;
     const std::int64_t greatest_sum = greatest_push * world.rate.substeps;
     const fixed::Rotation& q = d.motor_target;
     const lks_motor motor{d.motor_torque, d.motor_response, {q.x, q.y, q.z, q.w}};
-    return moves && d.body_a != d.body_b && within(d.point_a, LKS_FIXED(124)) &&
-           within(d.point_b, LKS_FIXED(124)) && within(joint.push, greatest_push) &&
-           within(joint.turn, greatest_push) && within(joint.grip, greatest_push) && joint.swing_push >= 0 &&
-           joint.swing_push <= greatest_push && lks::within(joint.twist_push, greatest_push) &&
-           within(joint.pushed, greatest_sum) && within(joint.turned, 5 * greatest_sum) &&
-           check_joint_ranges(world, define_joint(d)) == LKS_OK && d.swing_limit_z >= -1 &&
-           check_motor(world, d.kind, motor) == LKS_OK && fixed::normalise(q) == q;
+    return d.body_a != d.body_b && within(d.point_a, LKS_FIXED(124)) && within(d.point_b, LKS_FIXED(124)) &&
+           within(joint.push, greatest_push) && within(joint.turn, greatest_push) &&
+           within(joint.grip, greatest_push) && joint.swing_push >= 0 && joint.swing_push <= greatest_push &&
+           lks::within(joint.twist_push, greatest_push) && within(joint.pushed, greatest_sum) &&
+           within(joint.turned, 5 * greatest_sum) && check_joint_ranges(world, define_joint(d)) == LKS_OK &&
+           d.swing_limit_z >= -1 && check_motor(world, d.kind, motor) == LKS_OK && fixed::normalise(q) == q;
 }
 
 // Between a body and a later one, both there, or a collider.

@@ -1,0 +1,201 @@
+// lockstitch/ragdoll.h: poses, in and out.
+#include <lockstitch/ragdoll.h>
+
+#include <algorithm>
+
+#include "api/body_checks.h"
+#include "api/joint_checks.h"
+#include "collide/saturation.h"
+#include "rigid/body_motion.h"
+#include "rigid/make_body.h"
+
+using namespace lks;
+
+namespace {
+
+lks_result require_bodies(const lks_world* world, const lks_body_id* bodies, std::uint32_t count,
+                          const void* pose, const char* function) {
+    if (world == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (bodies == nullptr || pose == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT,
+                           null_argument(function, bodies == nullptr ? "bodies" : "pose"));
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (const lks_result result = require_body(world, bodies[i]); result != LKS_OK) {
+            return result;
+        }
+    }
+    return LKS_OK;
+}
+
+lks_result check_pose(const lks_world& world, const lks_transform* pose, std::uint32_t count) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (const lks_result result = check_body_transform(world, pose[i]); result != LKS_OK) {
+            return result;
+        }
+    }
+    return LKS_OK;
+}
+
+// As fast as it takes from one transform to the other in a tick.
+void set_velocity(lks_world& world, Body& body, const BodyDescription& description,
+                  const lks_transform& before, const lks_transform& now) {
+    Body from = body;
+    place_body(from, description, to_vec3(before.position), fixed::normalise(to_rotation(before.rotation)));
+    Body to = body;
+    place_body(to, description, to_vec3(now.position), fixed::normalise(to_rotation(now.rotation)));
+    const std::int64_t ticks = world.rate.ticks_per_second;
+    const auto speed = [ticks](std::int64_t way) { return fixed::multiply_shift(way, ticks, 0); };
+    const fixed::Vec3 way = saturating_subtract(to.position, from.position);
+    body.velocity = {speed(way.x), speed(way.y), speed(way.z)};
+    // Half turns, Turn to radians, World.
+    const fixed::Vec3 half = half_turn_between(from.orientation, to.orientation);
+    const auto spin = [ticks](std::int64_t c) {
+        return fixed::multiply_shift(c >> (turn_fraction_bits - world_fraction_bits - 1), ticks, 0);
+    };
+    body.angular_velocity = {spin(half.x), spin(half.y), spin(half.z)};
+    clamp_vector(body.velocity, body_speed_limit(world.rate));
+    clamp_vector(body.angular_velocity, body_spin_limit(world.rate));
+}
+
+// Of child against parent in the joint's frames, where bodies are turned as the pose says.
+lks_rotation motor_target(const JointDescription& d, const lks_rotation& parent, const lks_rotation& child) {
+    const fixed::Rotation a = fixed::multiply(fixed::normalise(to_rotation(parent)), d.frame_a);
+    const fixed::Rotation b = fixed::multiply(fixed::normalise(to_rotation(child)), d.frame_b);
+    const fixed::Rotation q = fixed::normalise(fixed::multiply(fixed::conjugate(a), b));
+    return {q.x, q.y, q.z, q.w};
+}
+
+lks_fixed scaled_torque(const lks_bone& bone, const lks_ragdoll_def& def, lks_fixed strength) {
+    lks_fixed torque = fixed::multiply_divide(bone.motor_torque, strength, LKS_FIXED_ONE);
+    for (int i = 0; i < 4; ++i) {
+        torque = fixed::multiply_divide(torque, def.scale, LKS_FIXED_ONE);
+    }
+    return std::min(torque, LKS_FIXED(1000000));
+}
+
+lks_result check_drive(const lks_world& world, const lks_ragdoll_def& def, const lks_joint_id* joints,
+                       const lks_transform* pose, lks_fixed strength, lks_fixed response) {
+    const Number numbers[] = {{"drive's strength", "", strength, 0, LKS_FIXED(100)},
+                              {"drive's response", " s", response, 0, LKS_FIXED(100)},
+                              {"ragdoll's scale", "", def.scale, LKS_FIXED_RATIO(5, 100), LKS_FIXED(20)}};
+    if (const lks_result result = check_numbers(world, numbers); result != LKS_OK) {
+        return result;
+    }
+    if (def.bone_count < 1 || def.bone_count > LKS_MAX_BONES || def.bones == nullptr) {
+        return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "The ragdoll has " << def.bone_count
+                                                                 << " bones; it needs from 1 to "
+                                                                 << LKS_MAX_BONES << " that are not null.");
+    }
+    for (std::uint32_t i = 1; i < def.bone_count; ++i) {
+        const Number torque{"bone's motor_torque", " N·m", def.bones[i].motor_torque, 0, LKS_FIXED(1000000)};
+        if (const lks_result result = check_numbers(world, &torque, 1); result != LKS_OK) {
+            return result;
+        }
+        if (def.bones[i].parent >= i) {
+            return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "Bone " << i << " has the parent "
+                                                                     << def.bones[i].parent
+                                                                     << "; a parent is an earlier bone.");
+        }
+        if (const lks_result result = require_joint(&world, joints[i - 1]); result != LKS_OK) {
+            return result;
+        }
+    }
+    return check_pose(world, pose, def.bone_count);
+}
+
+} // namespace
+
+extern "C" {
+
+lks_result lks_ragdoll_pose(const lks_world* world, const lks_body_id* bodies, uint32_t count,
+                            lks_transform* pose) {
+    const lks_result result = require_bodies(world, bodies, count, pose, "lks_ragdoll_pose");
+    for (std::uint32_t i = 0; result == LKS_OK && i < count; ++i) {
+        lks_body_transform(world, bodies[i], &pose[i]);
+    }
+    return result;
+}
+
+lks_result lks_ragdoll_set_pose(lks_world* world, const lks_body_id* bodies, uint32_t count,
+                                const lks_transform* pose, const lks_transform* before) {
+    lks_result result = require_bodies(world, bodies, count, pose, "lks_ragdoll_set_pose");
+    result = result == LKS_OK ? check_pose(*world, pose, count) : result;
+    result = result == LKS_OK && before != nullptr ? check_pose(*world, before, count) : result;
+    for (std::uint32_t i = 0; result == LKS_OK && i < count; ++i) {
+        lks_body_set_transform(world, bodies[i], pose[i]);
+        Body& body = world->rigid.bodies[bodies[i].index];
+        if (before != nullptr && body.is_dynamic()) {
+            set_velocity(*world, body, world->rigid.descriptions[bodies[i].index], before[i], pose[i]);
+        }
+    }
+    return result;
+}
+
+lks_result lks_ragdoll_move_to(lks_world* world, const lks_body_id* bodies, uint32_t count,
+                               const lks_transform* pose) {
+    lks_result result = require_bodies(world, bodies, count, pose, "lks_ragdoll_move_to");
+    if (result != LKS_OK) {
+        return result;
+    }
+    // Targets of those before it are put back where one is refused.
+    std::uint32_t done = 0;
+    fixed::Vec3 positions[LKS_MAX_BONES];
+    Quaternion orientations[LKS_MAX_BONES];
+    if (count > LKS_MAX_BONES) {
+        return world->fail(LKS_ERROR_LIMIT, Sentence() << "A pose of " << count << " bones is more than "
+                                                       << LKS_MAX_BONES << ".");
+    }
+    for (; done < count && result == LKS_OK; ++done) {
+        const Body& body = world->rigid.bodies[bodies[done].index];
+        positions[done] = body.target_position;
+        orientations[done] = body.target_orientation;
+        result = lks_body_move_to(world, bodies[done], pose[done]);
+    }
+    while (result != LKS_OK && done-- > 0) {
+        Body& body = world->rigid.bodies[bodies[done].index];
+        body.target_position = positions[done];
+        body.target_orientation = orientations[done];
+    }
+    return result;
+}
+
+lks_result lks_ragdoll_set_kind(lks_world* world, const lks_body_id* bodies, uint32_t count, uint32_t kind) {
+    lks_result result = require_bodies(world, bodies, count, bodies, "lks_ragdoll_set_kind");
+    for (std::uint32_t i = 0; result == LKS_OK && i < count; ++i) {
+        result = lks_body_set_kind(world, bodies[i], kind);
+    }
+    return result;
+}
+
+lks_result lks_ragdoll_drive(lks_world* world, const lks_ragdoll_def* def, const lks_joint_id* joints,
+                             const lks_transform* pose, lks_fixed strength, lks_fixed response) {
+    if (world == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (def == nullptr || joints == nullptr || pose == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT,
+                           null_argument("lks_ragdoll_drive", def == nullptr      ? "def"
+                                                              : joints == nullptr ? "joints"
+                                                                                  : "pose"));
+    }
+    if (const lks_result result = check_drive(*world, *def, joints, pose, strength, response);
+        result != LKS_OK) {
+        return result;
+    }
+    for (std::uint32_t i = 1; i < def->bone_count; ++i) {
+        const JointDescription& d = world->rigid.joints[joints[i - 1].index].description;
+        if (d.kind == LKS_JOINT_BALL || d.kind == LKS_JOINT_HINGE) {
+            lks_motor motor{};
+            motor.max_torque = scaled_torque(def->bones[i], *def, strength);
+            motor.response = response;
+            motor.target = motor_target(d, pose[def->bones[i].parent].rotation, pose[i].rotation);
+            lks_joint_set_motor(world, joints[i - 1], &motor);
+        }
+    }
+    return LKS_OK;
+}
+
+} // extern "C"

@@ -1,0 +1,214 @@
+// Poses in and out, from animation to ragdoll and back, and powered ragdolls.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/bodies.h"
+
+using namespace support;
+
+namespace {
+
+const double pi = std::acos(-1.0);
+
+struct Puppet {
+    explicit Puppet(World& world, std::uint32_t root_kind = LKS_BODY_DYNAMIC) : world_(world) {
+        human.bones[LKS_HUMANOID_PELVIS].body.kind = root_kind;
+        REQUIRE(human.add(world, bodies, joints) == LKS_OK);
+    }
+
+    std::vector<lks_transform> pose() const {
+        std::vector<lks_transform> out(LKS_HUMANOID_BONES);
+        REQUIRE(lks_ragdoll_pose(world_, bodies, LKS_HUMANOID_BONES, out.data()) == LKS_OK);
+        return out;
+    }
+
+    Humanoid human;
+    lks_body_id bodies[LKS_HUMANOID_BONES];
+    lks_joint_id joints[LKS_HUMANOID_BONES - 1];
+
+private:
+    World& world_;
+};
+
+// Degrees between two rotations.
+double between(const lks_rotation& a, const lks_rotation& b) {
+    const double dot =
+        (1.0 * a.x * b.x + 1.0 * a.y * b.y + 1.0 * a.z * b.z + 1.0 * a.w * b.w) / std::pow(2.0, 60);
+    return 2 * std::acos(std::min(1.0, std::abs(dot))) * 180 / pi;
+}
+
+lks_rotation product(const lks_rotation& a, const lks_rotation& b) {
+    const auto part = [](double v) { return static_cast<std::int32_t>(std::lround(v / std::pow(2.0, 30))); };
+    const double ax = a.x, ay = a.y, az = a.z, aw = a.w, bx = b.x, by = b.y, bz = b.z, bw = b.w;
+    return {part(aw * bx + ax * bw + ay * bz - az * by), part(aw * by + ay * bw + az * bx - ax * bz),
+            part(aw * bz + az * bw + ax * by - ay * bx), part(aw * bw - ax * bx - ay * by - az * bz)};
+}
+
+lks_rotation about(double x, double y, double z, double degrees) {
+    lks_rotation rotation{};
+    REQUIRE(lks_rotation_from_axis_angle(x, y, z, degrees, &rotation) == LKS_OK);
+    return rotation;
+}
+
+} // namespace
+
+TEST_CASE("a pose that was read is the one that was set, and velocities follow from two of them") {
+    World world(world_def(60, 8));
+    REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
+    Puppet puppet(world);
+    const std::vector<lks_transform> before = puppet.pose();
+    std::vector<lks_transform> now = before;
+    for (lks_transform& bone : now) {
+        bone.position = bone.position + fixed(0.1, -0.02, 0);
+    }
+    REQUIRE(lks_ragdoll_set_pose(world, puppet.bodies, LKS_HUMANOID_BONES, now.data(), before.data()) ==
+            LKS_OK);
+    for (int i = 0; i < static_cast<int>(LKS_HUMANOID_BONES); ++i) {
+        const BodyState state = state_of(world, puppet.bodies[i]);
+        CHECK((state.velocity - Vector{6, -1.2, 0}).length() < 1e-6);
+        CHECK(state.spin.length() < 1e-6);
+        CHECK(puppet.pose()[static_cast<std::size_t>(i)].position.x ==
+              now[static_cast<std::size_t>(i)].position.x);
+    }
+    // It flies on as one.
+    world.step(30);
+    CHECK(std::abs(state_of(world, puppet.bodies[LKS_HUMANOID_HEAD]).velocity.x - 6) < 1e-3);
+    // A bone that turns by three degrees a tick.
+    std::vector<lks_transform> turned = puppet.pose();
+    turned[0].rotation = product(about(0, 1, 0, 3), turned[0].rotation);
+    const std::vector<lks_transform> as_it_is = puppet.pose();
+    REQUIRE(lks_ragdoll_set_pose(world, puppet.bodies, 1, turned.data(), as_it_is.data()) == LKS_OK);
+    CHECK(std::abs(state_of(world, puppet.bodies[0]).spin.y - pi) < 1e-3);
+}
+
+TEST_CASE("an animated figure becomes a ragdoll at the speed that it had, and can be animated again") {
+    World world(world_def(60, 8));
+    Puppet puppet(world);
+    REQUIRE(lks_ragdoll_set_kind(world, puppet.bodies, LKS_HUMANOID_BONES, LKS_BODY_KINEMATIC) == LKS_OK);
+    CHECK(lks_body_get_kind(world, puppet.bodies[3]) == LKS_BODY_KINEMATIC);
+    std::vector<lks_transform> pose = puppet.pose();
+    const auto walk = [&](int ticks) {
+        for (int tick = 0; tick < ticks; ++tick) {
+            for (lks_transform& bone : pose) {
+                bone.position.x += fixed(0.05);
+            }
+            REQUIRE(lks_ragdoll_move_to(world, puppet.bodies, LKS_HUMANOID_BONES, pose.data()) == LKS_OK);
+            world.step();
+        }
+    };
+    walk(30);
+    CHECK(puppet.pose()[2].position.x == pose[2].position.x);
+    REQUIRE(lks_ragdoll_set_kind(world, puppet.bodies, LKS_HUMANOID_BONES, LKS_BODY_DYNAMIC) == LKS_OK);
+    CHECK(std::abs(state_of(world, puppet.bodies[LKS_HUMANOID_CHEST]).velocity.x - 3) < 1e-6);
+    world.step(12);
+    // It falls, and goes on at 3 m/s.
+    const BodyState chest = state_of(world, puppet.bodies[LKS_HUMANOID_CHEST]);
+    CHECK(std::abs(chest.velocity.x - 3) < 0.3);
+    CHECK(chest.velocity.y < -1);
+    REQUIRE(lks_ragdoll_set_kind(world, puppet.bodies, LKS_HUMANOID_BONES, LKS_BODY_KINEMATIC) == LKS_OK);
+    pose = puppet.pose();
+    walk(10);
+    CHECK(puppet.pose()[5].position.y == pose[5].position.y);
+    // What is saved with joints between kinematic bodies can be loaded.
+    const Image image = world.save();
+    REQUIRE(lks_world_load(world, image.data(), image.size()) == LKS_OK);
+    CHECK(world.save() == image);
+}
+
+TEST_CASE("a powered ragdoll takes the pose that it is given, and goes limp without strength") {
+    World world(world_def(60, 8));
+    Puppet puppet(world, LKS_BODY_KINEMATIC);
+    std::vector<lks_transform> pose = puppet.pose();
+    // The left arm raised to the side, the right knee bent: turned as a whole, as animations have it.
+    const lks_rotation raised = about(0, 0, 1, 80);
+    for (const std::size_t bone : {3, 4, 5}) {
+        pose[bone].rotation = product(raised, pose[bone].rotation);
+    }
+    const lks_rotation bent = about(1, 0, 0, 70);
+    for (const std::size_t bone : {13, 14}) {
+        pose[bone].rotation = product(bent, pose[bone].rotation);
+    }
+    for (int tick = 0; tick < 90; ++tick) {
+        REQUIRE(lks_ragdoll_drive(world, &puppet.human.def, puppet.joints, pose.data(), fixed(1),
+                                  fixed(0.1)) == LKS_OK);
+        world.step();
+    }
+    const std::vector<lks_transform> reached = puppet.pose();
+    for (std::size_t bone = 0; bone < pose.size(); ++bone) {
+        INFO("bone " << bone);
+        CHECK(between(reached[bone].rotation, pose[bone].rotation) < 1.5);
+    }
+    REQUIRE(lks_ragdoll_drive(world, &puppet.human.def, puppet.joints, pose.data(), 0, 0) == LKS_OK);
+    world.step(120);
+    CHECK(between(puppet.pose()[4].rotation, pose[4].rotation) > 30);
+}
+
+TEST_CASE("a spider stands on its eight legs, and falls where its strength leaves it") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    lks_bone bones[LKS_SPIDER_BONES];
+    lks_body_shape shapes[LKS_SPIDER_BONES];
+    REQUIRE(lks_spider(bones, shapes) == LKS_OK);
+    lks_ragdoll_def def = lks_default_ragdoll_def();
+    def.bones = bones;
+    def.bone_count = LKS_SPIDER_BONES;
+    lks_body_id bodies[LKS_SPIDER_BONES];
+    lks_joint_id joints[LKS_SPIDER_BONES - 1];
+    const lks_result added = lks_world_add_ragdoll(world, &def, bodies, joints);
+    INFO(world.message());
+    REQUIRE(added == LKS_OK);
+    lks_transform rest[LKS_SPIDER_BONES];
+    REQUIRE(lks_ragdoll_pose(world, bodies, LKS_SPIDER_BONES, rest) == LKS_OK);
+    for (const lks_joint_id joint : joints) {
+        lks_fixed error = 0;
+        REQUIRE(lks_joint_error(world, joint, &error) == LKS_OK);
+        CHECK(metres(error) < 1e-8);
+    }
+    REQUIRE(lks_ragdoll_drive(world, &def, joints, rest, fixed(1), fixed(0.05)) == LKS_OK);
+    world.step(240);
+    const double standing = state_of(world, bodies[LKS_SPIDER_THORAX]).position.y;
+    CHECK(standing > 0.2);
+    REQUIRE(lks_ragdoll_drive(world, &def, joints, rest, 0, 0) == LKS_OK);
+    world.step(240);
+    CHECK(state_of(world, bodies[LKS_SPIDER_THORAX]).position.y < 0.15);
+}
+
+TEST_CASE("poses and drives that are none are refused whole") {
+    World world(world_def(60, 8));
+    Puppet puppet(world);
+    std::vector<lks_transform> pose = puppet.pose();
+    const std::uint64_t hash = world.hash();
+    pose[7].rotation = {0, 0, 0, 0};
+    constexpr std::uint32_t count = LKS_HUMANOID_BONES;
+    CHECK(lks_ragdoll_set_pose(world, puppet.bodies, count, pose.data(), nullptr) ==
+          LKS_ERROR_INVALID_ARGUMENT);
+    CHECK(lks_ragdoll_drive(world, &puppet.human.def, puppet.joints, pose.data(), fixed(1), 0) ==
+          LKS_ERROR_INVALID_ARGUMENT);
+    pose = puppet.pose();
+    CHECK(lks_ragdoll_move_to(world, puppet.bodies, count, pose.data()) == LKS_ERROR_UNSUPPORTED);
+    CHECK(lks_ragdoll_drive(world, &puppet.human.def, puppet.joints, pose.data(), fixed(-1), 0) ==
+          LKS_ERROR_INVALID_ARGUMENT);
+    CHECK(lks_ragdoll_drive(world, &puppet.human.def, puppet.joints, pose.data(), fixed(1), fixed(101)) ==
+          LKS_ERROR_INVALID_ARGUMENT);
+    puppet.joints[2].generation = 9;
+    CHECK(lks_ragdoll_drive(world, &puppet.human.def, puppet.joints, pose.data(), fixed(1), 0) ==
+          LKS_ERROR_STALE_ID);
+    CHECK(lks_ragdoll_set_kind(world, puppet.bodies, count, 2) == LKS_ERROR_INVALID_ARGUMENT);
+    CHECK(lks_ragdoll_pose(world, nullptr, count, pose.data()) == LKS_ERROR_NULL_ARGUMENT);
+    CHECK(lks_ragdoll_pose(nullptr, puppet.bodies, count, pose.data()) == LKS_ERROR_NULL_ARGUMENT);
+    CHECK(lks_ragdoll_drive(world, nullptr, puppet.joints, pose.data(), 0, 0) == LKS_ERROR_NULL_ARGUMENT);
+    CHECK(lks_spider(nullptr, nullptr) == LKS_ERROR_NULL_ARGUMENT);
+    CHECK(world.hash() == hash);
+    // One of them can't go that far: none goes.
+    REQUIRE(lks_ragdoll_set_kind(world, puppet.bodies, count, LKS_BODY_KINEMATIC) == LKS_OK);
+    const std::uint64_t still = world.hash();
+    for (lks_transform& bone : pose) {
+        bone.position.x += fixed(1);
+    }
+    pose[14].position.x += fixed(200);
+    CHECK(lks_ragdoll_move_to(world, puppet.bodies, count, pose.data()) == LKS_ERROR_INVALID_ARGUMENT);
+    CHECK(world.hash() == still);
+}
