@@ -18,7 +18,7 @@ private:
     void configure(lks_world_def& def) override { def.substeps = 8; }
 
     bool build() override {
-        camera_ = {{4.6f, 2.9f, 6.4f}, {2.0f, 1.1f, 0.0f}, 36.0f, {0.35f, 0.8f, 0.55f}};
+        camera_ = {{4.6f, 2.9f, 6.8f}, {1.9f, 1.55f, 0.0f}, 42.0f, {0.35f, 0.8f, 0.55f}};
         return add_ground(rgb(0xa19e99)) && add_stairs() && add_mannequin();
     }
 

@@ -34,6 +34,16 @@ const std::vector<Entry>& entries() {
          make_ragdoll_stairs},
         {{"ragdoll_pile", "Thirty mannequins fall into a pit and pile up", 420, 120, {60, 120}},
          make_ragdoll_pile},
+        {{"ragdoll_hang",
+          "A mannequin hangs by its hands on two ropes until one breaks",
+          420,
+          300,
+          {60, 270}},
+         make_ragdoll_hang},
+        {{"ragdoll_cape", "A powered mannequin walks in a circle and wears a cape", 480, 180, {60, 170}},
+         make_ragdoll_cape},
+        {{"spider", "A powered spider walks over rubble, and its strength leaves it", 480, 180, {60, 170}},
+         make_spider},
     };
     return all;
 }

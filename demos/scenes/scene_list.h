@@ -17,5 +17,8 @@ std::unique_ptr<Scene> make_box_stack(const SceneInfo& info);
 std::unique_ptr<Scene> make_newtons_cradle(const SceneInfo& info);
 std::unique_ptr<Scene> make_ragdoll_stairs(const SceneInfo& info);
 std::unique_ptr<Scene> make_ragdoll_pile(const SceneInfo& info);
+std::unique_ptr<Scene> make_ragdoll_hang(const SceneInfo& info);
+std::unique_ptr<Scene> make_ragdoll_cape(const SceneInfo& info);
+std::unique_ptr<Scene> make_spider(const SceneInfo& info);
 
 } // namespace lks_demo
