@@ -8,6 +8,7 @@
 #include <lockstitch/base.h>
 #include <lockstitch/body.h>
 #include <lockstitch/collider.h>
+#include <lockstitch/event.h>
 #include <lockstitch/fixed.h>
 #include <lockstitch/joint.h>
 #include <lockstitch/object.h>

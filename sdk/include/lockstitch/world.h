@@ -93,6 +93,7 @@ typedef struct lks_world_counters {
     uint64_t dropped_ticks;   /* by LKS_EXCESS_TIME_DROP */
     uint64_t lost_contacts;   /* more pairs of bodies touched than a tick has room for: on the average 32 near
                                  and 16 touching a body */
+    uint64_t lost_events;     /* more than lks_world_record_events has room for */
 } lks_world_counters;
 
 LKS_API lks_result lks_world_get_counters(const lks_world* world, lks_world_counters* counters);

@@ -147,6 +147,7 @@ lks_result lks_world_step(lks_world* world) {
     if (world->running) {
         return world->fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "A tick hook can't step its own world.");
     }
+    world->event_log.events.clear();
     run_tick(*world);
     return LKS_OK;
 }
@@ -170,6 +171,7 @@ lks_result lks_world_advance(lks_world* world, int64_t elapsed_ns, uint32_t* tic
                                                 << "Too many ticks are due; run them before time goes on.");
     }
     world->clock.due += gained;
+    world->event_log.events.clear();
     std::uint32_t ran = 0;
     while (ran < world->max_ticks_per_advance && world->clock.due >= clock_units_per_tick) {
         world->clock.due -= clock_units_per_tick;

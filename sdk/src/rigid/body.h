@@ -69,6 +69,9 @@ struct Body {
     fixed::Vec3 previous_position;
     fixed::Rotation previous_rotation;
 
+    // For events: whether it was asleep when that was last looked at.
+    bool known_asleep;
+
     // Of the tick and the substep at work.
     std::int64_t struck; // asleep: how fast particles would have made it, World m/s
     bool touched;        // by a contact that pushed at the end of the tick

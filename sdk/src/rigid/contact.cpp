@@ -214,8 +214,7 @@ void begin_substep(Contact& contact, const Body& a, const Body& b) {
     }
 }
 
-bool strike(const Contact& contact, ContactBodies bodies, std::int64_t least_approach,
-            const MotionRate& rate) {
+bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach, const MotionRate& rate) {
     if (contact.restitution == 0 || contact.count != 1) {
         return false;
     }
@@ -232,6 +231,7 @@ bool strike(const Contact& contact, ContactBodies bodies, std::int64_t least_app
         make_row(bodies, contact.shares, contact.normal, levers.a, levers.b, side_a, side_b);
     const std::int64_t back = fixed::multiply_shift(approach, contact.restitution, world_fraction_bits);
     const std::int64_t p = divide(approach + back, inverse);
+    contact.given_speed = fixed::saturating_add(contact.given_speed, p);
     accelerate(bodies.a, side_a, contact.normal, p, -1);
     accelerate(bodies.b, side_b, contact.normal, p, 1);
     return true;
@@ -286,6 +286,16 @@ void project(Contact& contact, ContactBodies bodies) {
         }
         if (wanted != 0 || point.push.across[0] != 0 || point.push.across[1] != 0) {
             project_friction(contact, point, bodies);
+        }
+    }
+}
+
+void add_up_pushes(Contact& contact, const MotionRate& rate) {
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        if (contact.points[i].active) {
+            contact.given_speed = fixed::saturating_add(
+                contact.given_speed,
+                fixed::multiply_shift(contact.points[i].push.normal, rate.substeps_per_second, 0));
         }
     }
 }

@@ -65,6 +65,7 @@ struct Contact {
     std::uint32_t static_friction; // 18 fraction bits
     std::uint32_t dynamic_friction;
     std::int64_t restitution; // World
+    std::int64_t given_speed; // World m/s: what it gave along its normals in this tick, added up
     bool fast;                // its points are looked for in every substep
     fixed::Direction normal;  // from a to b
     fixed::Direction across[2];
@@ -86,11 +87,12 @@ void begin_substep(Contact& contact, const Body& a, const Body& b);
 // An impact of two single points that give back speed, before the bodies are predicted: the impulse that
 // reverses their approach. True where there was one. Impacts of several points at once are left to
 // restore_speed: a box would take them one after the other and spin.
-bool strike(const Contact& contact, ContactBodies bodies, std::int64_t least_approach,
-            const MotionRate& rate);
+bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach, const MotionRate& rate);
 // Once the bodies are predicted: rows, and the pushes of the substep before.
 void warm_start(Contact& contact, ContactBodies bodies);
 void project(Contact& contact, ContactBodies bodies);
+// For events: what it pushed in this substep.
+void add_up_pushes(Contact& contact, const MotionRate& rate);
 // Once velocities are known.
 void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t least_approach);
 // Last: old overlaps.

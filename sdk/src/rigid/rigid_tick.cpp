@@ -219,6 +219,11 @@ private:
                 finish_body(scene_.bodies[i], scene_.descriptions[i], rate_, world_.counters.speed_clamps);
             }
         }
+        if (world_.event_log.wants_contacts()) {
+            for (Contact& contact : scene_.contacts) {
+                add_up_pushes(contact, rate_);
+            }
+        }
         for (const Contact& contact : scene_.contacts) {
             restore_speed(contact, bodies_of(contact), least_approach_);
         }
@@ -244,7 +249,7 @@ private:
         for (int pass = 0; pass < most_passes && again; ++pass) {
             again = false;
             for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
-                const Contact& contact = scene_.contacts[pass % 2 == 0 ? i : scene_.contacts.size() - 1 - i];
+                Contact& contact = scene_.contacts[pass % 2 == 0 ? i : scene_.contacts.size() - 1 - i];
                 again = strike(contact, bodies_of(contact), least_approach_, rate_) || again;
             }
         }
@@ -286,6 +291,7 @@ private:
         bool any = false;
         for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
             if (is_at_work(i) && breaks(scene_.joints[i])) {
+                record_break(world_, scene_.joints[i], i);
                 scene_.free_joint(i);
                 any = true;
             }
@@ -295,6 +301,7 @@ private:
         }
         for (std::uint32_t i = 0; i < scene_.attachments.size(); ++i) {
             if (scene_.attachment_slots[i].used && lks::breaks(scene_.attachments[i])) {
+                record_break(world_, scene_.attachments[i], i);
                 scene_.free_attachment(i);
             }
         }
@@ -325,6 +332,7 @@ private:
             remember(contact);
         }
         keep_sleeping(old, nullptr);
+        record_contacts(world_);
         scene_.memories.swap(scene_.next_memories);
     }
 
@@ -376,6 +384,7 @@ private:
 void run_rigid_tick(lks_world& world) {
     if (!world.rigid.empty()) {
         RigidTick(world).run();
+        record_sleep(world);
     }
 }
 

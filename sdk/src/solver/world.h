@@ -12,6 +12,7 @@
 #include "collide/collider_motion.h"
 #include "kernels/kernels.h"
 #include "memory/array.h"
+#include "rigid/events.h"
 #include "rigid/rigid_scene.h"
 #include "solver/object.h"
 #include "solver/slot.h"
@@ -79,6 +80,7 @@ struct lks_world {
     lks::Helpers helpers;
     lks::Clock clock;
     lks_world_counters counters{};
+    lks::EventLog event_log;
     bool running = false; // inside a tick's hook
     mutable lks_error last_error{};
 

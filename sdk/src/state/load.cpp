@@ -206,6 +206,7 @@ public:
     }
 
     void commit(ByteReader in) {
+        world_.event_log.events.clear();
         world_.tick = header_.tick;
         world_.gravity = header_.gravity;
         commit_objects(in);

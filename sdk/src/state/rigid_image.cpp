@@ -240,6 +240,7 @@ void read_rigid(ByteReader& in, const RigidCounts& counts, const StepRate& rate,
             body = record.body;
             apply_description(body, description);
             body.follow_orientation();
+            body.known_asleep = body.asleep != 0;
             // There is no tick before for the view to start from.
             body.previous_position = body.position;
             body.previous_rotation = narrow(body.orientation);

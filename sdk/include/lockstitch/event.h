@@ -1,0 +1,58 @@
+/* Lockstitch: events. What happened to bodies, joints and attachments, for sounds, sparks and game rules.
+ *
+ * Events are no part of the state and change nothing of it: a world that records them has the same bits as
+ * one that does not, and a world that was rolled back gives the same ones again. They come in a canonical
+ * order: by tick, within it contacts by their bodies' indices, then broken joints, broken attachments, and
+ * sleep.
+ */
+#ifndef LOCKSTITCH_EVENT_H
+#define LOCKSTITCH_EVENT_H
+
+#include <lockstitch/attachment.h>
+#include <lockstitch/joint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum lks_event_kind {
+    LKS_EVENT_CONTACT_BEGIN = 0, /* they touched in this tick, and not at the end of the one before */
+    LKS_EVENT_CONTACT_END = 1,   /* they no longer do; what is removed ends without an event */
+    LKS_EVENT_JOINT_BROKE = 2,   /* its id is stale now */
+    LKS_EVENT_ATTACHMENT_BROKE = 3,
+    LKS_EVENT_FELL_ASLEEP = 4,
+    LKS_EVENT_WOKE = 5
+} lks_event_kind;
+
+/* For lks_world_record_events: one bit a kind. */
+#define LKS_EVENT_BIT(kind) (1u << (kind))
+#define LKS_ALL_EVENTS 0x3fu
+#define LKS_MAX_EVENTS 1048576u
+
+typedef struct lks_event {
+    uint32_t kind; /* an lks_event_kind */
+    uint32_t reserved;
+    uint64_t tick;            /* in which it happened */
+    lks_body_id body_a;       /* the body, or the one with the lower index; generation 0: none */
+    lks_body_id body_b;       /* generation 0: none, or a collider */
+    lks_collider_id collider; /* what body_a touches; generation 0: none */
+    lks_joint_id joint;       /* that broke */
+    lks_attachment_id attachment;
+    lks_fixed strength; /* a contact's impulse in this tick along its normals, N·s; what broke a joint or an
+                           attachment, N or N·m; saturates at 8,388,607 */
+} lks_event;
+
+/* From now on. `kinds` is made of LKS_EVENT_BITs, 0: none. Contacts that begin with less than `least_impulse`
+ * (N·s, 0 .. 8000000) are left out. At most `capacity` (1 .. LKS_MAX_EVENTS) are kept of a call that runs
+ * ticks; the rest is counted (lost_events). */
+LKS_API lks_result lks_world_record_events(lks_world* world, uint32_t kinds, lks_fixed least_impulse,
+                                           uint32_t capacity);
+/* Of the ticks that the last lks_world_step or lks_world_advance ran. Valid until the next one, until a load,
+ * and until lks_world_record_events. Never null where the count is not 0. */
+LKS_API const lks_event* lks_world_events(const lks_world* world);
+LKS_API uint32_t lks_world_event_count(const lks_world* world);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,216 @@
+#include "rigid/events.h"
+
+#include <algorithm>
+
+#include "rigid/coupling.h"
+#include "rigid/make_body.h"
+
+namespace lks {
+namespace {
+
+using fixed::Scaled;
+
+constexpr std::int64_t greatest_strength = LKS_FIXED(8388607);
+
+void add(lks_world& world, const lks_event& event) {
+    EventLog& log = world.event_log;
+    if (!log.wants(static_cast<lks_event_kind>(event.kind))) {
+        return;
+    }
+    if (log.events.size() < log.capacity) {
+        log.events.push_reserved(event);
+    } else {
+        ++world.counters.lost_events;
+    }
+}
+
+lks_event make_event(const lks_world& world, lks_event_kind kind) {
+    lks_event event{};
+    event.kind = kind;
+    event.tick = world.tick;
+    return event;
+}
+
+lks_body_id body_id(const RigidScene& scene, std::uint32_t index) {
+    return {index, scene.body_slots[index].generation};
+}
+
+std::int64_t to_strength(const Scaled& value) {
+    return std::min(value.to_i64_fixed(world_fraction_bits), greatest_strength);
+}
+
+// Two bodies, or a body and a collider.
+struct Pair {
+    std::uint32_t body_a;
+    std::uint32_t other;
+
+    friend bool operator==(const Pair&, const Pair&) = default;
+    friend bool operator<(const Pair& p, const Pair& q) {
+        return p.body_a != q.body_a ? p.body_a < q.body_a : p.other < q.other;
+    }
+};
+
+constexpr Pair no_pair{UINT32_MAX, UINT32_MAX};
+
+Pair pair_of(const ContactKey& key) {
+    return {key.body_a, key.other};
+}
+
+// The contacts of this tick, those that pushed at the end of the one before, and those that push now, pair by
+// pair: all three in ascending order.
+class ContactChanges {
+public:
+    explicit ContactChanges(lks_world& world) : world_(world), scene_(world.rigid) {}
+
+    void record() {
+        for (Pair pair = next_pair(); !(pair == no_pair); pair = next_pair()) {
+            const std::int64_t speed = take_contacts(pair);
+            const bool before = take(scene_.memories, old_, pair);
+            const bool now = take(scene_.next_memories, new_, pair);
+            const bool begins = !before && (speed != 0 || now);
+            const std::int64_t impulse = begins ? impulse_of(pair, speed) : 0;
+            const bool loud = impulse >= world_.event_log.least_impulse;
+            if (begins && loud) {
+                report(pair, LKS_EVENT_CONTACT_BEGIN, impulse);
+            }
+            if (!now && (before || (begins && loud))) {
+                report(pair, LKS_EVENT_CONTACT_END, 0);
+            }
+        }
+    }
+
+private:
+    Pair next_pair() const {
+        Pair least = no_pair;
+        if (contact_ < scene_.contacts.size()) {
+            least = std::min(least, pair_of(scene_.contacts[contact_].key));
+        }
+        if (old_ < scene_.memories.size()) {
+            least = std::min(least, pair_of(scene_.memories[old_].key));
+        }
+        if (new_ < scene_.next_memories.size()) {
+            least = std::min(least, pair_of(scene_.next_memories[new_].key));
+        }
+        return least;
+    }
+
+    // How much speed its contacts gave in this tick, added up.
+    std::int64_t take_contacts(const Pair& pair) {
+        std::int64_t sum = 0;
+        for (; contact_ < scene_.contacts.size() && pair_of(scene_.contacts[contact_].key) == pair;
+             ++contact_) {
+            sum = fixed::saturating_add(sum, scene_.contacts[contact_].given_speed);
+        }
+        return sum;
+    }
+
+    static bool take(const Array<ContactMemory>& memories, std::size_t& at, const Pair& pair) {
+        const std::size_t first = at;
+        while (at < memories.size() && pair_of(memories[at].key) == pair) {
+            ++at;
+        }
+        return at != first;
+    }
+
+    // World N·s. Speeds count in the greater inverse mass of the two.
+    std::int64_t impulse_of(const Pair& pair, std::int64_t speed) const {
+        const Body& a = scene_.bodies[pair.body_a];
+        Scaled greater = inverse_mass(a);
+        if (pair.other < other_is_collider) {
+            const Scaled other = inverse_mass(scene_.bodies[pair.other]);
+            greater = greater < other ? other : greater;
+        }
+        if (greater.is_zero()) {
+            return 0;
+        }
+        return to_strength(Scaled::from_fixed(static_cast<std::uint64_t>(speed), world_fraction_bits) /
+                           greater);
+    }
+
+    void report(const Pair& pair, lks_event_kind kind, std::int64_t impulse) {
+        lks_event event = make_event(world_, kind);
+        event.body_a = body_id(scene_, pair.body_a);
+        if (pair.other < other_is_collider) {
+            event.body_b = body_id(scene_, pair.other);
+        } else {
+            const std::uint32_t index = pair.other & ~other_is_collider;
+            event.collider = {index, world_.colliders[index].generation};
+        }
+        event.strength = impulse;
+        add(world_, event);
+    }
+
+    lks_world& world_;
+    const RigidScene& scene_;
+    std::size_t contact_ = 0;
+    std::size_t old_ = 0;
+    std::size_t new_ = 0;
+};
+
+// The mean of a tick, of pushes that were added up.
+std::int64_t mean_strength(const lks_world& world, const fixed::Vec3& sum,
+                           const Scaled& greater_inverse_mass) {
+    const Scaled inverse_h = world.rate.inverse_h();
+    const Scaled length = Scaled::from_fixed(fixed::length(sum), world_fraction_bits);
+    return to_strength(length * inverse_h * inverse_h / greater_inverse_mass /
+                       Scaled::from_u64(world.rate.substeps));
+}
+
+} // namespace
+
+void record_contacts(lks_world& world) {
+    if (world.event_log.wants_contacts()) {
+        ContactChanges(world).record();
+    }
+}
+
+void record_break(lks_world& world, const Joint& joint, std::uint32_t index) {
+    if (!world.event_log.wants(LKS_EVENT_JOINT_BROKE)) {
+        return;
+    }
+    const RigidScene& scene = world.rigid;
+    const JointDescription& d = joint.description;
+    const Scaled greater =
+        greater_inverse_mass(joint.constants.shares, scene.bodies[d.body_a], scene.bodies[d.body_b]);
+    const bool by_force =
+        joint.constants.break_push != 0 &&
+        fixed::length(joint.pushed) > static_cast<std::uint64_t>(joint.constants.break_push);
+    lks_event event = make_event(world, LKS_EVENT_JOINT_BROKE);
+    event.joint = {index, scene.joint_slots[index].generation};
+    event.body_a = body_id(scene, d.body_a);
+    event.body_b = body_id(scene, d.body_b);
+    event.strength =
+        by_force ? mean_strength(world, joint.pushed, greater)
+                 : mean_strength(world, joint.turned, greater.times_power_of_two(-2 * joint.constants.reach));
+    add(world, event);
+}
+
+void record_break(lks_world& world, const Attachment& attachment, std::uint32_t index) {
+    if (!world.event_log.wants(LKS_EVENT_ATTACHMENT_BROKE)) {
+        return;
+    }
+    lks_event event = make_event(world, LKS_EVENT_ATTACHMENT_BROKE);
+    event.attachment = {index, world.rigid.attachment_slots[index].generation};
+    if (attachment.description.kind == LKS_ATTACHMENT_TO_BODY) {
+        event.body_a = body_id(world.rigid, attachment.description.other);
+    }
+    event.strength = mean_strength(world, attachment.pushed,
+                                   greater_inverse_mass(attachment, sides_of(world, attachment)));
+    add(world, event);
+}
+
+void record_sleep(lks_world& world) {
+    for (std::uint32_t i = 0; i < world.rigid.bodies.size(); ++i) {
+        Body& body = world.rigid.bodies[i];
+        const bool asleep = body.asleep != 0;
+        if (body.known_asleep == asleep) {
+            continue;
+        }
+        body.known_asleep = asleep;
+        lks_event event = make_event(world, asleep ? LKS_EVENT_FELL_ASLEEP : LKS_EVENT_WOKE);
+        event.body_a = body_id(world.rigid, i);
+        add(world, event);
+    }
+}
+
+} // namespace lks

@@ -1,0 +1,33 @@
+// Takes down what happens in a tick (lockstitch/event.h). Nothing here is state.
+#pragma once
+
+#include <lockstitch/event.h>
+
+#include "memory/array.h"
+#include "rigid/rigid_scene.h"
+
+struct lks_world;
+
+namespace lks {
+
+struct EventLog {
+    explicit EventLog(const lks_allocator& allocator) : events(allocator) {}
+
+    bool wants(lks_event_kind kind) const { return (kinds & LKS_EVENT_BIT(kind)) != 0; }
+    bool wants_contacts() const { return wants(LKS_EVENT_CONTACT_BEGIN) || wants(LKS_EVENT_CONTACT_END); }
+
+    std::uint32_t kinds = 0;
+    std::int64_t least_impulse = 0; // World, N·s
+    std::uint32_t capacity = 0;
+    Array<lks_event> events;
+};
+
+// At the end of a tick, before the new memories take the place of the old ones.
+void record_contacts(lks_world& world);
+// Before it is freed.
+void record_break(lks_world& world, const Joint& joint, std::uint32_t index);
+void record_break(lks_world& world, const Attachment& attachment, std::uint32_t index);
+// Last: who sleeps and who is awake since the tick before.
+void record_sleep(lks_world& world);
+
+} // namespace lks

@@ -1,0 +1,195 @@
+// What worlds tell of what happened in them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/bodies.h"
+#include "support/builders.h"
+#include "support/refusals.h"
+
+using namespace support;
+
+namespace {
+
+void record(const World& world, std::uint32_t kinds = LKS_ALL_EVENTS, double least = 0,
+            std::uint32_t capacity = 1000) {
+    REQUIRE(lks_world_record_events(world, kinds, fixed(least), capacity) == LKS_OK);
+}
+
+// Those of the last call that ran ticks.
+std::vector<lks_event> events_of(const World& world) {
+    const lks_event* first = lks_world_events(world);
+    return std::vector<lks_event>(first, first + lks_world_event_count(world));
+}
+
+std::vector<lks_event> run(World& world, int ticks) {
+    std::vector<lks_event> all;
+    for (int i = 0; i < ticks; ++i) {
+        world.step();
+        const std::vector<lks_event> now = events_of(world);
+        all.insert(all.end(), now.begin(), now.end());
+    }
+    return all;
+}
+
+std::vector<lks_event> only(const std::vector<lks_event>& all, lks_event_kind kind) {
+    std::vector<lks_event> some;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+                 [kind](const lks_event& e) { return e.kind == static_cast<std::uint32_t>(kind); });
+    return some;
+}
+
+bool same(const lks_event& a, const lks_event& b) {
+    return a.kind == b.kind && a.tick == b.tick && a.body_a.index == b.body_a.index &&
+           a.body_b.index == b.body_b.index && a.body_b.generation == b.body_b.generation &&
+           a.collider.index == b.collider.index && a.strength == b.strength;
+}
+
+double mass_of(const World& world, lks_body_id body) {
+    lks_fixed mass = 0;
+    REQUIRE(lks_body_mass(world, body, &mass) == LKS_OK);
+    return metres(mass);
+}
+
+} // namespace
+
+TEST_CASE("a ball that falls, bounces and rests begins and ends its contacts with the impulse that it has") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    lks_body_def def = lks_default_body_def();
+    def.restitution = fixed(0.5);
+    const lks_body_id ball = add_body(world, ball_shape(0.2), fixed(0, 1.2, 0), def);
+    record(world);
+    const std::vector<lks_event> all = run(world, 400);
+    const std::vector<lks_event> begins = only(all, LKS_EVENT_CONTACT_BEGIN);
+    const std::vector<lks_event> ends = only(all, LKS_EVENT_CONTACT_END);
+    REQUIRE(begins.size() >= 3);
+    CHECK(ends.size() == begins.size() - 1); // it lies now
+    // It falls a metre and leaves with half its speed.
+    const double speed = std::sqrt(2 * 9.81);
+    CHECK(std::abs(metres(begins[0].strength) / (1.5 * mass_of(world, ball) * speed) - 1) < 0.03);
+    CHECK(begins[0].body_a.index == ball.index);
+    CHECK(begins[0].body_b.generation == 0);
+    CHECK(begins[0].collider.generation == 1);
+    CHECK(std::abs(static_cast<double>(begins[0].tick) / 60 - speed / 9.81) < 0.05);
+    CHECK(begins[1].strength < begins[0].strength);
+    const std::vector<lks_event> asleep = only(all, LKS_EVENT_FELL_ASLEEP);
+    REQUIRE(asleep.size() == 1);
+    CHECK(asleep[0].body_a.generation == ball.generation);
+    REQUIRE(lks_body_apply_impulse(world, ball, fixed(0, 100, 0), fixed(0, 0.2, 0)) == LKS_OK);
+    const std::vector<lks_event> flight = run(world, 5);
+    CHECK(only(flight, LKS_EVENT_WOKE).size() == 1);
+    CHECK(only(flight, LKS_EVENT_CONTACT_END).size() == 1);
+}
+
+TEST_CASE("soft touches stay below the threshold, and kinds that nobody wants out of the list") {
+    for (const bool loud : {false, true}) {
+        World world(world_def(60, 8));
+        add_ground(world);
+        const lks_body_id ball = add_body(world, ball_shape(0.2), fixed(0, 0.45, 0));
+        const double impulse = mass_of(world, ball) * std::sqrt(2 * 9.81 * 0.25);
+        record(world, LKS_EVENT_BIT(LKS_EVENT_CONTACT_BEGIN), impulse * (loud ? 0.8 : 1.2));
+        const std::vector<lks_event> all = run(world, 120);
+        CHECK(all.size() == (loud ? 1 : 0));
+    }
+}
+
+TEST_CASE("what breaks says so, with the force that broke it") {
+    World world(world_def(60, 8));
+    const lks_body_id anchor = add_anchor(world, {});
+    const lks_body_id ball = add_body(world, ball_shape(0.1), {});
+    lks_joint_def joint = lks_default_joint_def();
+    joint.break_force = fixed(0.9 * mass_of(world, ball) * 9.81);
+    const lks_joint_id id = add_joint(world, joint, anchor, ball);
+    const Asset rope = Chain().build();
+    lks_attachment_def hold = lks_default_attachment_def();
+    hold.object = world.add(rope, at(0, 3, 0));
+    hold.body = anchor;
+    hold.point = fixed(0, 3, 0);
+    hold.break_force = fixed(1);
+    lks_attachment_id held{};
+    REQUIRE(lks_world_add_attachment(world, &hold, &held) == LKS_OK);
+    record(world);
+    const std::vector<lks_event> all = run(world, 30);
+    const std::vector<lks_event> broken = only(all, LKS_EVENT_JOINT_BROKE);
+    REQUIRE(broken.size() == 1);
+    CHECK(broken[0].joint.index == id.index);
+    CHECK(broken[0].joint.generation == id.generation);
+    CHECK(lks_world_has_joint(world, id) == 0);
+    CHECK(broken[0].body_b.index == ball.index);
+    CHECK(std::abs(metres(broken[0].strength) / (mass_of(world, ball) * 9.81) - 1) < 0.1);
+    const std::vector<lks_event> torn = only(all, LKS_EVENT_ATTACHMENT_BROKE);
+    REQUIRE(torn.size() == 1);
+    CHECK(torn[0].attachment.generation == held.generation);
+    CHECK(torn[0].body_a.index == anchor.index);
+    CHECK(metres(torn[0].strength) > 1);
+}
+
+TEST_CASE("recording changes no bit; the same ticks tell the same, and in order") {
+    const auto build = [](World& world) {
+        add_ground(world);
+        for (int i = 0; i < 12; ++i) {
+            add_body(world, box_shape(0.1, 0.1, 0.1), fixed(0.03 * (i % 3), 0.2 + 0.3 * i, 0.02 * (i % 4)));
+        }
+    };
+    World quiet(world_def(60, 8));
+    World telling(world_def(60, 8));
+    build(quiet);
+    build(telling);
+    record(telling);
+    std::vector<lks_event> all = run(telling, 40);
+    quiet.step(40);
+    CHECK(quiet.hash() == telling.hash());
+    const Image image = telling.save();
+    const std::vector<lks_event> first = run(telling, 200);
+    REQUIRE(lks_world_load(telling, image.data(), image.size()) == LKS_OK);
+    CHECK(lks_world_event_count(telling) == 0);
+    const std::vector<lks_event> second = run(telling, 200);
+    REQUIRE(first.size() == second.size());
+    CHECK(first.size() > 20);
+    all.insert(all.end(), first.begin(), first.end());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        CHECK(same(first[i], second[i]));
+    }
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        CHECK(all[i - 1].tick <= all[i].tick);
+        const bool both_contacts = all[i - 1].tick == all[i].tick && all[i].kind <= LKS_EVENT_CONTACT_END;
+        if (both_contacts) {
+            CHECK(all[i - 1].body_a.index <= all[i].body_a.index);
+        }
+    }
+    // In a tick of its own each that begins ends once, or is still there.
+    CHECK(only(all, LKS_EVENT_CONTACT_BEGIN).size() >= only(all, LKS_EVENT_CONTACT_END).size());
+    // Several ticks of one call.
+    REQUIRE(lks_world_load(telling, image.data(), image.size()) == LKS_OK);
+    std::uint32_t ran = 0;
+    REQUIRE(lks_world_advance(telling, 6 * 1000000000ll / 60 + 1000, &ran) == LKS_OK);
+    REQUIRE(ran == 6);
+    const auto in_time = static_cast<std::size_t>(
+        std::count_if(first.begin(), first.end(), [&](const lks_event& e) { return e.tick < 46; }));
+    CHECK(events_of(telling).size() == in_time);
+}
+
+TEST_CASE("events beyond the room for them are counted, and wrong settings refused") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    for (int i = 0; i < 8; ++i) {
+        add_body(world, ball_shape(0.1), fixed(i, 0.099, 0));
+    }
+    record(world, LKS_ALL_EVENTS, 0, 3);
+    world.step();
+    CHECK(lks_world_event_count(world) == 3);
+    CHECK(world.counters().lost_events == 5);
+    check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "64",
+                       [&] { return lks_world_record_events(world, 64, 0, 10); });
+    check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "-1",
+                       [&] { return lks_world_record_events(world, 1, fixed(-1), 10); });
+    check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "0 events",
+                       [&] { return lks_world_record_events(world, 1, 0, 0); });
+    CHECK(lks_world_record_events(nullptr, 1, 0, 1) == LKS_ERROR_NULL_ARGUMENT);
+    CHECK(lks_world_events(nullptr) == nullptr);
+    CHECK(lks_world_event_count(nullptr) == 0);
+    CHECK(lks_world_event_count(world) == 3);
+}
