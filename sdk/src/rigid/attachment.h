@@ -6,8 +6,6 @@
 
 #include <lockstitch/attachment.h>
 
-#include <compare>
-
 #include "rigid/block.h"
 #include "solver/object.h"
 
@@ -61,7 +59,11 @@ struct HeldParticle {
     std::uint32_t body;
     std::uint32_t particle;
 
-    friend constexpr auto operator<=>(const HeldParticle&, const HeldParticle&) = default;
+    friend constexpr bool operator<(const HeldParticle& p, const HeldParticle& q) {
+        return p.object != q.object ? p.object < q.object
+               : p.body != q.body   ? p.body < q.body
+                                    : p.particle < q.particle;
+    }
 };
 
 // Zero where it is pinned, or infinitely heavy from the start.

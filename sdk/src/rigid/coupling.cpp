@@ -91,8 +91,8 @@ private:
             ++world_.counters.lost_contacts;
             return;
         }
-        const std::uint64_t index = object & ~object_flag;
-        scene_.object_pairs.push_reserved(index << 32 | body);
+        const std::uint32_t index = object & ~object_flag;
+        scene_.object_pairs.push_reserved(std::uint64_t{index} << 32 | body);
         scene_.is_coupled[index] = 1;
     }
 
