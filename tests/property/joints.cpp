@@ -31,12 +31,6 @@ Angles angles_of(const World& world, lks_joint_id joint) {
     return {metres(swing), metres(twist)};
 }
 
-lks_rotation about(double x, double y, double z, double degrees) {
-    lks_rotation rotation{};
-    REQUIRE(lks_rotation_from_axis_angle(x, y, z, degrees, &rotation) == LKS_OK);
-    return rotation;
-}
-
 } // namespace
 
 TEST_CASE("a pendulum has its period") {

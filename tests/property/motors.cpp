@@ -13,12 +13,6 @@ namespace {
 constexpr double g = 9.81;
 const double pi = std::acos(-1.0);
 
-lks_rotation about(double x, double y, double z, double degrees) {
-    lks_rotation rotation{};
-    REQUIRE(lks_rotation_from_axis_angle(x, y, z, degrees, &rotation) == LKS_OK);
-    return rotation;
-}
-
 double twist_of(const World& world, lks_joint_id joint) {
     lks_fixed twist = 0;
     REQUIRE(lks_joint_angles(world, joint, nullptr, &twist) == LKS_OK);

@@ -47,12 +47,6 @@ lks_rotation product(const lks_rotation& a, const lks_rotation& b) {
             part(aw * bz + az * bw + ax * by - ay * bx), part(aw * bw - ax * bx - ay * by - az * bz)};
 }
 
-lks_rotation about(double x, double y, double z, double degrees) {
-    lks_rotation rotation{};
-    REQUIRE(lks_rotation_from_axis_angle(x, y, z, degrees, &rotation) == LKS_OK);
-    return rotation;
-}
-
 } // namespace
 
 TEST_CASE("a pose that was read is the one that was set, and velocities follow from two of them") {

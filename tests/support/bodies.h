@@ -28,6 +28,12 @@ inline lks_body_shape box_shape(double x, double y, double z, double density = 1
     return shape;
 }
 
+inline lks_rotation about(double x, double y, double z, double degrees) {
+    lks_rotation rotation{};
+    REQUIRE(lks_rotation_from_axis_angle(x, y, z, degrees, &rotation) == LKS_OK);
+    return rotation;
+}
+
 inline lks_body_id add_body(const World& world, const lks_body_shape& shape, const lks_vec3& position,
                             lks_body_def def = lks_default_body_def()) {
     def.shapes = &shape;

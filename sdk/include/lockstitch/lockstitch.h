@@ -12,6 +12,7 @@
 #include <lockstitch/fixed.h>
 #include <lockstitch/joint.h>
 #include <lockstitch/object.h>
+#include <lockstitch/query.h>
 #include <lockstitch/ragdoll.h>
 #include <lockstitch/simd.h>
 #include <lockstitch/state.h>

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "collide/saturation.h"
+#include "collide/trace.h"
 
 namespace lks {
 namespace {
@@ -78,44 +79,18 @@ fixed::Vec3 plane_local(const fixed::Matrix3& rotation, const fixed::Vec3& posit
     return {saturating_double(local.x), saturating_double(local.y), saturating_double(local.z)};
 }
 
-// rest · (distance / closing), rounded towards p's side; 0 <= distance < closing.
-fixed::Vec3 advance(const fixed::Vec3& rest, std::int64_t distance, std::int64_t closing) {
-    const int shift = std::max(0, 32 - std::countl_zero(static_cast<std::uint64_t>(closing)));
-    const std::uint64_t divisor = (static_cast<std::uint64_t>(closing) >> shift) + 1;
-    const std::uint64_t share = ((static_cast<std::uint64_t>(distance) >> shift) << 30) / divisor; // Q30, < 1
-    const auto factor = static_cast<std::int32_t>(share);
-    return {fixed::scale_component(factor, rest.x), fixed::scale_component(factor, rest.y),
-            fixed::scale_component(factor, rest.z)};
-}
-
-// Follows the way from an outside start until it meets the shape. Sphere tracing (Hart 1996) would go on by
-// the distance, which near a grazing surface takes any number of steps; the plane through the nearest surface
-// point has the whole convex shape behind it, so that the way is free up to there. On the distance along the
-// way, a convex function, this is Newton's method: from outside it never passes the root, and it doubles the
-// digits with each step (at a tangent, the distance falls to a quarter). Some 25 steps reach the tolerance
-// from anywhere.
-constexpr int greatest_trace_steps = 64;
-
 template <lks_shape_kind kind>
 bool find_contact(const ContactFrame& frame, const Way& way, Contact& contact) {
-    SurfacePoint nearest = nearest_surface<kind>(frame.shape, way.start, frame.margin);
-    const std::int64_t start_distance = nearest.distance;
-    fixed::Vec3 rest = way.end - way.start;
-    std::int64_t closing = -fixed::dot(nearest.normal, rest);
-    for (int step = 0; step < greatest_trace_steps; ++step) {
-        if (closing <= nearest.distance) {
-            return false; // never gets behind the plane
-        }
-        if (nearest.distance <= contact_tolerance) {
-            break;
-        }
-        rest = rest - advance(rest, nearest.distance, closing);
-        nearest = nearest_surface<kind>(frame.shape, way.end - rest, frame.margin);
-        closing = -fixed::dot(nearest.normal, rest);
+    const auto nearest_to = [&frame](const fixed::Vec3& p) {
+        return nearest_surface<kind>(frame.shape, p, frame.margin);
+    };
+    Trace found{};
+    if (!trace(nearest_to, way.start, way.end, contact_tolerance, found)) {
+        return false;
     }
-    contact.normal = nearest.normal;
-    contact.depth = closing - nearest.distance;
-    contact.old_depth = std::min(contact.depth, std::max<std::int64_t>(-start_distance, 0));
+    contact.normal = found.hit.normal;
+    contact.depth = found.closing - found.hit.distance;
+    contact.old_depth = std::min(contact.depth, std::max<std::int64_t>(-found.start.distance, 0));
     return true;
 }
 

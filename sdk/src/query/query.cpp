@@ -1,0 +1,235 @@
+#include "query/query.h"
+
+#include <algorithm>
+
+#include "collide/saturation.h"
+#include "collide/trace.h"
+#include "rigid/attachment.h"
+
+namespace lks {
+namespace {
+
+using fixed::Vec3;
+
+// A hit is accepted this close in front of the surface: a micrometre.
+constexpr std::int64_t tolerance = std::int64_t{1} << (world_fraction_bits - 20);
+
+std::int64_t from_coordinate(std::int64_t value) {
+    return value >> coordinate_from_world_shift;
+}
+
+// One shape where it is: everything in World.
+struct PlacedShape {
+    Shape shape;
+    Vec3 centre;
+    fixed::Matrix3 axes;
+};
+
+// Calls use(placed, hit) for all that the query is about; the hit says what it is.
+class Everything {
+public:
+    Everything(const lks_world& world, const lks_query& query) : world_(world), query_(query) {}
+
+    // `reach` is a box around all that the query can meet.
+    template <typename Use>
+    void visit(const Box& reach, const Use& use) const {
+        if (wants(LKS_HIT_COLLIDER)) {
+            visit_colliders(use);
+        }
+        if (wants(LKS_HIT_BODY)) {
+            visit_bodies(reach, use);
+        }
+        if (wants(LKS_HIT_PARTICLE)) {
+            visit_particles(reach, use);
+        }
+    }
+
+private:
+    bool wants(lks_hit_kind kind) const { return (query_.kinds & LKS_HIT_BIT(kind)) != 0; }
+
+    template <typename Use>
+    void visit_colliders(const Use& use) const {
+        for (std::uint32_t i = 0; i < world_.colliders.size(); ++i) {
+            const ColliderSlot& slot = world_.colliders[i];
+            if (!slot.used) {
+                continue;
+            }
+            const Shape& s = slot.collider.shape;
+            const Vec3& e = s.half_extents;
+            const Shape shape{s.kind,
+                              from_coordinate(s.radius),
+                              from_coordinate(s.half_length),
+                              {from_coordinate(e.x), from_coordinate(e.y), from_coordinate(e.z)}};
+            lks_hit hit{};
+            hit.kind = LKS_HIT_COLLIDER;
+            hit.collider = {i, slot.generation};
+            use(PlacedShape{shape, slot.collider.position, fixed::to_matrix(slot.collider.rotation)}, hit);
+        }
+    }
+
+    template <typename Use>
+    void visit_bodies(const Box& reach, const Use& use) const {
+        const RigidScene& scene = world_.rigid;
+        for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+            const BodyDescription& d = scene.descriptions[i];
+            const lks_body_id id{i, scene.body_slots[i].generation};
+            const bool ignored =
+                query_.ignored.index == id.index && query_.ignored.generation == id.generation;
+            if (!scene.body_slots[i].used || (d.filter.category & query_.mask) == 0 || ignored ||
+                !around(scene.bodies[i].position, d.radius).overlaps(reach)) {
+                continue;
+            }
+            for (std::uint32_t part = 0; part < d.shape_count; ++part) {
+                lks_hit hit{};
+                hit.kind = LKS_HIT_BODY;
+                hit.part = part;
+                hit.body = id;
+                use(place(scene.bodies[i], d.shapes[part]), hit);
+            }
+        }
+    }
+
+    static PlacedShape place(const Body& body, const BodyShape& s) {
+        return {{s.kind, s.radius, s.half_length, s.half_extents},
+                body.position + fixed::rotate(body.rotation, s.position),
+                fixed::multiply(body.rotation, fixed::to_matrix(s.rotation))};
+    }
+
+    template <typename Use>
+    void visit_particles(const Box& reach, const Use& use) const {
+        for (std::uint32_t i = 0; i < world_.objects.size(); ++i) {
+            const Object* object = world_.objects[i].object;
+            if (object == nullptr) {
+                continue;
+            }
+            const std::int64_t radius = from_coordinate(object->asset().particle_radius);
+            for (std::uint32_t vertex = 0; vertex < object->count(); ++vertex) {
+                const Vec3 position = particle_position(*object, object->asset().vertex_to_particle[vertex]);
+                if (!around(position, radius).overlaps(reach)) {
+                    continue;
+                }
+                lks_hit hit{};
+                hit.kind = LKS_HIT_PARTICLE;
+                hit.part = vertex;
+                hit.object = {i, world_.objects[i].generation};
+                use(PlacedShape{{LKS_SHAPE_SPHERE, radius, 0, {0, 0, 0}},
+                                position,
+                                fixed::to_matrix(fixed::identity_rotation())},
+                    hit);
+            }
+        }
+    }
+
+    static Box around(const Vec3& p, std::int64_t radius) {
+        return {{p.x - radius, p.y - radius, p.z - radius}, {p.x + radius, p.y + radius, p.z + radius}};
+    }
+
+    const lks_world& world_;
+    const lks_query& query_;
+};
+
+Vec3 to_local(const PlacedShape& placed, const Vec3& p) {
+    return fixed::rotate_transposed(placed.axes, saturating_subtract(p, placed.centre));
+}
+
+// In the world, of length one in World.
+lks_vec3 world_normal(const PlacedShape& placed, const fixed::Direction& normal) {
+    const fixed::Direction n = fixed::rotate(placed.axes, normal);
+    constexpr std::int64_t scale = std::int64_t{1} << (world_fraction_bits - 30);
+    return {n.x * scale, n.y * scale, n.z * scale};
+}
+
+// p less a length along a normal.
+lks_vec3 behind(const Vec3& p, const lks_vec3& normal, std::int64_t length) {
+    const auto part = [length](std::int64_t n) {
+        return fixed::multiply_shift(n, length, world_fraction_bits);
+    };
+    return {p.x - part(normal.x), p.y - part(normal.y), p.z - part(normal.z)};
+}
+
+Box box_of_way(const Vec3& a, const Vec3& b, std::int64_t radius) {
+    return {{std::min(a.x, b.x) - radius, std::min(a.y, b.y) - radius, std::min(a.z, b.z) - radius},
+            {std::max(a.x, b.x) + radius, std::max(a.y, b.y) + radius, std::max(a.z, b.z) + radius}};
+}
+
+// Where no way is left to go, the shape is entered only if it is begun in.
+bool trace_shape(const PlacedShape& placed, const Vec3& from, const Vec3& to, std::int64_t radius,
+                 Trace& found) {
+    const auto nearest_to = [&](const Vec3& p) { return nearest_surface(placed.shape, p, radius); };
+    const Vec3 start = to_local(placed, from);
+    found.start = nearest_to(start);
+    if (found.start.distance <= 0) {
+        found.hit = found.start;
+        found.rest = to - from;
+        return true;
+    }
+    return trace(nearest_to, start, to_local(placed, to), tolerance, found);
+}
+
+} // namespace
+
+bool HitList::before(const lks_hit& a, const lks_hit& b) const {
+    if (nearest_first_ && a.distance != b.distance) {
+        return a.distance < b.distance;
+    }
+    const auto index = [](const lks_hit& hit) {
+        return hit.kind == LKS_HIT_COLLIDER ? hit.collider.index
+               : hit.kind == LKS_HIT_BODY   ? hit.body.index
+                                            : hit.object.index;
+    };
+    return a.kind != b.kind ? a.kind < b.kind : index(a) != index(b) ? index(a) < index(b) : a.part < b.part;
+}
+
+void HitList::add(const lks_hit& hit) {
+    const std::uint32_t kept = std::min(count_, capacity_);
+    ++count_;
+    if (capacity_ == 0) {
+        return;
+    }
+    std::uint32_t place = kept;
+    while (place > 0 && before(hit, hits_[place - 1])) {
+        --place;
+    }
+    for (std::uint32_t i = std::min(kept, capacity_ - 1); i > place; --i) {
+        hits_[i] = hits_[i - 1];
+    }
+    if (place < capacity_) {
+        hits_[place] = hit;
+    }
+}
+
+void cast_ball(const lks_world& world, const lks_query& query, const Vec3& from, const Vec3& to,
+               HitList& hits) {
+    const auto whole = static_cast<std::int64_t>(fixed::length(to - from));
+    Everything(world, query)
+        .visit(box_of_way(from, to, query.radius), [&](const PlacedShape& placed, lks_hit hit) {
+            Trace found{};
+            if (!trace_shape(placed, from, to, query.radius, found)) {
+                return;
+            }
+            const auto rest = static_cast<std::int64_t>(fixed::length(found.rest));
+            hit.distance = std::max<std::int64_t>(whole - rest, 0);
+            hit.normal = world_normal(placed, found.hit.normal);
+            const Vec3 ball = to - fixed::rotate(placed.axes, found.rest);
+            // The ball's centre, less its radius and what is between them.
+            const bool inside = found.start.distance <= 0;
+            hit.point = behind(inside ? from : ball, hit.normal, query.radius + found.hit.distance);
+            hits.add(hit);
+        });
+}
+
+void find_within(const lks_world& world, const lks_query& query, const Vec3& centre, HitList& hits) {
+    Everything(world, query)
+        .visit(box_of_way(centre, centre, query.radius), [&](const PlacedShape& placed, lks_hit hit) {
+            const SurfacePoint nearest = nearest_surface(placed.shape, to_local(placed, centre), 0);
+            if (nearest.distance > query.radius) {
+                return;
+            }
+            hit.distance = nearest.distance;
+            hit.normal = world_normal(placed, nearest.normal);
+            hit.point = behind(centre, hit.normal, nearest.distance);
+            hits.add(hit);
+        });
+}
+
+} // namespace lks
