@@ -186,6 +186,17 @@ TEST_CASE(
     CHECK(here.normal.z == there.normal.z);
 }
 
+TEST_CASE("what is at the other end of the world is not hit, but for a plane") {
+    World world(world_def(60, 8));
+    add(world, LKS_SHAPE_SPHERE, at(8000000, 1, 0));
+    add(world, LKS_SHAPE_BOX, at(8000000, 1, 8000000));
+    add(world, LKS_SHAPE_PLANE, at(8000000, -1, -8000000));
+    const std::vector<lks_hit> hits = cast(world, fixed(-8000000, 1, 0), fixed(-8000000, -3, 0));
+    REQUIRE(hits.size() == 1);
+    CHECK(hits[0].collider.index == 2);
+    CHECK(std::abs(metres(hits[0].distance) - 2) < 2e-6);
+}
+
 TEST_CASE("queries that make no sense are refused") {
     World world(world_def(60, 8));
     lks_query query = lks_default_query();

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "collide/plane_motion.h"
 #include "collide/saturation.h"
 #include "collide/trace.h"
 #include "rigid/attachment.h"
+#include "rigid/body_motion.h"
 
 namespace lks {
 namespace {
@@ -128,8 +130,22 @@ private:
     const lks_query& query_;
 };
 
+// A plane may be anywhere: of it the height counts alone, and that is exact.
 Vec3 to_local(const PlacedShape& placed, const Vec3& p) {
-    return fixed::rotate_transposed(placed.axes, saturating_subtract(p, placed.centre));
+    if (placed.shape.kind == LKS_SHAPE_PLANE) {
+        const fixed::Int128 height =
+            height_above_plane(plane_normal(placed.axes), placed.centre, p, Vec3{0, 0, 0});
+        constexpr std::int64_t most = std::int64_t{1} << 61;
+        return {0,
+                std::clamp(fixed::saturate_to_int64(fixed::shift_right_rounded(
+                               height, height_fraction_bits - world_fraction_bits)),
+                           -most, most),
+                0};
+    }
+    // What is 2,000 km away is nowhere near.
+    Vec3 relative = saturating_subtract(p, placed.centre);
+    clamp_vector(relative, std::int64_t{1} << 61);
+    return fixed::rotate_transposed(placed.axes, relative);
 }
 
 // In the world, of length one in World.
@@ -163,7 +179,8 @@ bool trace_shape(const PlacedShape& placed, const Vec3& from, const Vec3& to, st
         found.rest = to - from;
         return true;
     }
-    return trace(nearest_to, start, to_local(placed, to), tolerance, found);
+    return trace(nearest_to, start, start + fixed::rotate_transposed(placed.axes, to - from), tolerance,
+                 found);
 }
 
 } // namespace
