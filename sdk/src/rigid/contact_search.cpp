@@ -159,10 +159,10 @@ private:
     }
 
     static void include(Box& box, const Vec3& p, const Vec3& reach) {
-        box.low = {std::min(box.low.x, p.x - reach.x), std::min(box.low.y, p.y - reach.y),
-                   std::min(box.low.z, p.z - reach.z)};
-        box.high = {std::max(box.high.x, p.x + reach.x), std::max(box.high.y, p.y + reach.y),
-                    std::max(box.high.z, p.z + reach.z)};
+        const Vec3 low = saturating_subtract(p, reach);
+        const Vec3 high = saturating_add(p, reach);
+        box.low = {std::min(box.low.x, low.x), std::min(box.low.y, low.y), std::min(box.low.z, low.z)};
+        box.high = {std::max(box.high.x, high.x), std::max(box.high.y, high.y), std::max(box.high.z, high.z)};
     }
 
     void find_pairs() {

@@ -100,8 +100,12 @@ private:
     Box box_of_body(const Body& body, const BodyDescription& description) const {
         const std::int64_t speed = body.is_awake() ? per_tick(sum_of_magnitudes(body.velocity)) : 0;
         const std::int64_t reach = description.radius + near + 2 * speed + fall_;
-        const auto low = [reach](std::int64_t p, std::int64_t q) { return std::min(p, q) - reach; };
-        const auto high = [reach](std::int64_t p, std::int64_t q) { return std::max(p, q) + reach; };
+        const auto low = [reach](std::int64_t p, std::int64_t q) {
+            return saturating_subtract(std::min(p, q), reach);
+        };
+        const auto high = [reach](std::int64_t p, std::int64_t q) {
+            return fixed::saturating_add(std::max(p, q), reach);
+        };
         const Vec3& p = body.position;
         const Vec3& q = body.is_dynamic() ? body.position : body.target_position;
         return {{low(p.x, q.x), low(p.y, q.y), low(p.z, q.z)},
@@ -122,10 +126,11 @@ private:
             to_world(object.greatest_motion()) * static_cast<std::int64_t>(world_.rate.substeps);
         const std::int64_t reach = near + fall_ + 2 * motion + to_world(object.asset().particle_radius) + 1;
         const Vec3& o = object.origin;
-        return {{o.x + to_world(bounds.low.x) - reach, o.y + to_world(bounds.low.y) - reach,
-                 o.z + to_world(bounds.low.z) - reach},
-                {o.x + to_world(bounds.high.x) + reach, o.y + to_world(bounds.high.y) + reach,
-                 o.z + to_world(bounds.high.z) + reach}};
+        const Vec3 low{to_world(bounds.low.x), to_world(bounds.low.y), to_world(bounds.low.z)};
+        const Vec3 high{to_world(bounds.high.x), to_world(bounds.high.y), to_world(bounds.high.z)};
+        const Vec3 all{reach, reach, reach};
+        return {saturating_subtract(saturating_add(o, low), all),
+                saturating_add(saturating_add(o, high), all)};
     }
 
     lks_world& world_;

@@ -161,14 +161,14 @@ Bounds Object::swept_bounds(std::uint32_t first, std::uint32_t particle_count) c
 }
 
 std::int64_t Object::greatest_motion() const {
-    std::int64_t greatest = 0;
+    std::uint64_t greatest = 0;
     for (int i = 0; i < 3; ++i) {
         for (std::uint32_t k = 0; k < count(); ++k) {
-            const std::int64_t motion = axis(i)[k] - start_axis(i)[k];
-            greatest = std::max(greatest, motion < 0 ? -motion : motion);
+            const std::int64_t motion = fixed::wrapping_subtract(axis(i)[k], start_axis(i)[k]);
+            greatest = std::max(greatest, fixed::magnitude(motion));
         }
     }
-    return greatest;
+    return static_cast<std::int64_t>(std::min<std::uint64_t>(greatest, substep_motion_limit));
 }
 
 } // namespace lks

@@ -90,7 +90,7 @@ public:
     std::uint64_t shift_pin_targets(int axis, std::int64_t shift);
 
     Bounds bounds() const;
-    // Of any particle on any axis in the last substep.
+    // Of any particle on any axis in the last substep, at most substep_motion_limit.
     std::int64_t greatest_motion() const;
     // Of where some of the particles are and were at the start of the substep.
     Bounds swept_bounds(std::uint32_t first, std::uint32_t count) const;
