@@ -8,7 +8,6 @@
 #include "fixed/formats.h"
 #include "fixed/scaled.h"
 #include "fixed/vector.h"
-#include "solver/step_rate.h"
 
 namespace lks {
 
@@ -21,12 +20,6 @@ inline lks_vec3 times(const fixed::Vec3& v, const fixed::Scaled& factor) {
         return c < 0 ? -value : value;
     };
     return {part(v.x), part(v.y), part(v.z)};
-}
-
-// Of pushes that were added up over a tick's substeps, in newtons.
-inline fixed::Scaled force_of_push(const StepRate& rate, const fixed::Scaled& greater_inverse_mass) {
-    return rate.inverse_h() * rate.inverse_h() / greater_inverse_mass /
-           fixed::Scaled::from_u64(rate.substeps);
 }
 
 } // namespace lks

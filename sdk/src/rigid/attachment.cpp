@@ -12,17 +12,6 @@ namespace {
 using fixed::Scaled;
 using fixed::Vec3;
 
-InverseMass to_inverse_mass(const Scaled& value) {
-    if (value.is_zero()) {
-        return {0, 0};
-    }
-    return {static_cast<std::uint32_t>(value.mantissa >> 32), value.exponent + 32};
-}
-
-Scaled to_scaled(const InverseMass& w) {
-    return Scaled::rounded({0, w.mantissa}, w.exponent);
-}
-
 InverseMass other_inverse_mass(const AttachmentDescription& d, const AttachmentSides& sides) {
     return sides.body != nullptr ? sides.body->inverse_mass
                                  : particle_inverse_mass(*sides.other, d.other_particle);
@@ -134,16 +123,10 @@ void project(Attachment& attachment, const AttachmentSides& sides) {
     if (attachment.constants.movable == 0) {
         return;
     }
-    const Softness& s = attachment.constants.softness;
     const Vec3 offset = attachment_offset(attachment, sides);
-    Vec3 error = offset;
-    if (s.softness != 0) {
-        error = soften(s, offset, saturating_subtract(offset, attachment.begin), attachment.push);
-    }
-    clamp_vector(error, greatest_step);
     const Vec3 before = attachment.push;
-    attachment.push = before - solve(attachment.inverse, error);
-    clamp_vector(attachment.push, greatest_push);
+    attachment.push = next_push(attachment.inverse, attachment.constants.softness, offset,
+                                saturating_subtract(offset, attachment.begin), before);
     push_apart(attachment, sides, attachment.push - before);
 }
 
@@ -152,8 +135,7 @@ void finish_substep(Attachment& attachment) {
 }
 
 bool breaks(const Attachment& attachment) {
-    const std::int64_t most = attachment.constants.break_push;
-    return most != 0 && fixed::length(attachment.pushed) > static_cast<std::uint64_t>(most);
+    return exceeds(attachment.pushed, attachment.constants.break_push);
 }
 
 } // namespace lks

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "rigid/body_motion.h"
+
 namespace lks {
 
 using fixed::Scaled;
@@ -93,6 +95,23 @@ std::int64_t soften(const Softness& s, std::int64_t error, std::int64_t motion, 
 Vec3 soften(const Softness& s, const Vec3& error, const Vec3& motion, const Vec3& push) {
     return {soften(s, error.x, motion.x, push.x), soften(s, error.y, motion.y, push.y),
             soften(s, error.z, motion.z, push.z)};
+}
+
+bool exceeds(const Vec3& sum, std::int64_t greatest_sum) {
+    return greatest_sum != 0 && fixed::length(sum) > static_cast<std::uint64_t>(greatest_sum);
+}
+
+Scaled force_of_push(const StepRate& rate, const Scaled& greater_inverse_mass) {
+    return rate.inverse_h() * rate.inverse_h() / greater_inverse_mass / Scaled::from_u64(rate.substeps);
+}
+
+Vec3 next_push(const BlockInverse& inverse, const Softness& softness, const Vec3& error, const Vec3& motion,
+               const Vec3& push) {
+    Vec3 left = softness.softness != 0 ? soften(softness, error, motion, push) : error;
+    clamp_vector(left, greatest_step);
+    Vec3 next = push - solve(inverse, left);
+    clamp_vector(next, greatest_push);
+    return next;
 }
 
 } // namespace lks

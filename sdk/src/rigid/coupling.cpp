@@ -17,7 +17,7 @@ public:
     explicit Coupling(lks_world& world) : world_(world), scene_(world.rigid) {
         const Vec3& g = world.gravity;
         const std::int64_t ticks = world.rate.ticks_per_second;
-        // Twice what gravity moves in a tick, of bodies with the greatest factor, too.
+        // Twice what gravity moves in a tick.
         fall_ = sum_of_magnitudes(g) / ticks / ticks;
     }
 

@@ -150,10 +150,8 @@ private:
 // The mean of a tick, of pushes that were added up.
 std::int64_t mean_strength(const lks_world& world, const fixed::Vec3& sum,
                            const Scaled& greater_inverse_mass) {
-    const Scaled inverse_h = world.rate.inverse_h();
     const Scaled length = Scaled::from_fixed(fixed::length(sum), world_fraction_bits);
-    return to_strength(length * inverse_h * inverse_h / greater_inverse_mass /
-                       Scaled::from_u64(world.rate.substeps));
+    return to_strength(length * force_of_push(world.rate, greater_inverse_mass));
 }
 
 } // namespace
@@ -172,9 +170,7 @@ void record_break(lks_world& world, const Joint& joint, std::uint32_t index) {
     const JointDescription& d = joint.description;
     const Scaled greater =
         greater_inverse_mass(joint.constants.shares, scene.bodies[d.body_a], scene.bodies[d.body_b]);
-    const bool by_force =
-        joint.constants.break_push != 0 &&
-        fixed::length(joint.pushed) > static_cast<std::uint64_t>(joint.constants.break_push);
+    const bool by_force = exceeds(joint.pushed, joint.constants.break_push);
     lks_event event = make_event(world, LKS_EVENT_JOINT_BROKE);
     event.joint = {index, scene.joint_slots[index].generation};
     event.body_a = body_id(scene, d.body_a);

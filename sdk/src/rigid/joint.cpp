@@ -26,14 +26,9 @@ void push_apart(const Joint& joint, Body& a, Body& b, const Vec3& p) {
 // The points together, in all directions at once (XPBD eq. 18).
 void project_points(Joint& joint, Body& a, Body& b) {
     const Vec3 offset = joint_offset(joint, a, b);
-    Vec3 error = offset - joint.start;
-    if (joint.constants.points.softness != 0) {
-        error = soften(joint.constants.points, error, offset - joint.begin, joint.push);
-    }
-    clamp_vector(error, greatest_step);
     const Vec3 before = joint.push;
-    joint.push = before - solve(joint.inverse, error);
-    clamp_vector(joint.push, greatest_push);
+    joint.push =
+        next_push(joint.inverse, joint.constants.points, offset - joint.start, offset - joint.begin, before);
     push_apart(joint, a, b, joint.push - before);
 }
 
@@ -159,11 +154,8 @@ void project(Joint& joint, Body& a, Body& b) {
 }
 
 bool breaks(const Joint& joint) {
-    const auto beyond = [](const Vec3& sum, std::int64_t most) {
-        return most != 0 && fixed::length(sum) > static_cast<std::uint64_t>(most);
-    };
-    return beyond(joint.pushed, joint.constants.break_push) ||
-           beyond(joint.turned, joint.constants.break_turn);
+    return exceeds(joint.pushed, joint.constants.break_push) ||
+           exceeds(joint.turned, joint.constants.break_turn);
 }
 
 } // namespace lks

@@ -82,12 +82,11 @@ struct Joint {
     JointDescription description;
     JointConstants constants;
 
-    // State: what it pushed in the last substep, World.
-    fixed::Vec3 push; // from a to b, a length; a ball joint begins with it
-    fixed::Vec3
-        grip; // of friction or the motor: turns b against a, an angle; the next substep begins with it
-    fixed::Vec3 turn;        // of hinges and fixed joints: turns b against a; the next substep begins with it
-    std::int64_t swing_push; // of the limits: angles; the next substep begins with them
+    // State: what it pushed in the last substep, World. The next one begins with it.
+    fixed::Vec3 push;        // from a to b, a length
+    fixed::Vec3 turn;        // b against a, an angle: of hinges and fixed joints
+    fixed::Vec3 grip;        // the same of friction or the motor
+    std::int64_t swing_push; // the same of the limits, about their axes
     std::int64_t twist_push;
     // What it pushed and turned in the last tick, substeps added up; for reading out.
     fixed::Vec3 pushed;
@@ -96,7 +95,6 @@ struct Joint {
     // Of the substep.
     fixed::Vec3 begin;        // how far the points were apart at its beginning
     fixed::Vec3 start;        // what of it is to be kept
-    fixed::Vec3 limit;        // what limits turned
     fixed::Vec3 turn_start;   // how far a hinge's or a fixed joint's frames are turned at its beginning
     fixed::Vec3 drag;         // what angular damping turned
     std::int64_t swing_start; // how far limits let turn in this substep: World, radians

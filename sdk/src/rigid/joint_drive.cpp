@@ -43,12 +43,7 @@ void drag(Joint& joint, Body& a, Body& b) {
     if (!fixed::normalise(turned_since_start(a, b), way)) {
         return;
     }
-    const std::int64_t softness = joint.constants.drag_softness;
-    const std::int64_t angle =
-        softened(to_angle(way.length), fixed::dot(way.direction, joint.drag), softness);
-    const TurnRow row(joint, a, b, way.direction, softness);
-    joint.drag = joint.drag + fixed::scale(way.direction, row.turn_by(-angle));
-    clamp_vector(joint.drag, greatest_push);
+    turn_back(joint, a, b, way.direction, to_angle(way.length), joint.constants.drag_softness, joint.drag);
 }
 
 // What is missing to the motor's target, about any axis or about the hinge's: an angle in World, in the

@@ -54,6 +54,14 @@ std::int64_t TurnRow::turn_by(std::int64_t angle) const {
     return p;
 }
 
+void turn_back(const Joint& joint, Body& a, Body& b, const Direction& axis, std::int64_t angle,
+               std::int64_t softness, Vec3& push) {
+    const std::int64_t soft = softness == 0 ? 0 : fixed::multiply_shift(fixed::dot(axis, push), softness, 30);
+    const TurnRow row(joint, a, b, axis, softness);
+    push = push + fixed::scale(axis, row.turn_by(-(angle + soft)));
+    clamp_vector(push, greatest_push);
+}
+
 JointAngles joint_angles(const Joint& joint, const Body& a, const Body& b) {
     const fixed::Rotation q = relative_rotation(joint, a, b);
     const auto [u, v] = axes_of(joint, a, b);

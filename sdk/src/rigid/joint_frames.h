@@ -21,10 +21,6 @@ fixed::Vec3 sines(const fixed::Direction& u, const fixed::Direction& v);
 constexpr std::int64_t to_world_angle(std::int64_t angle) {
     return angle * (std::int64_t{1} << (world_fraction_bits - 30));
 }
-// The error of a soft row: with what its push takes back.
-constexpr std::int64_t softened(std::int64_t angle, std::int64_t push, std::int64_t softness) {
-    return softness == 0 ? angle : angle + fixed::multiply_shift(push, softness, 30);
-}
 // By a turning push.
 void turn_apart(const Joint& joint, Body& a, Body& b, const fixed::Vec3& p);
 
@@ -47,5 +43,10 @@ private:
     Inverse inverse_{};
     bool possible_ = false;
 };
+
+// b is turned back against a by an angle about an axis, softly where the softness is not zero; adds to
+// `push`.
+void turn_back(const Joint& joint, Body& a, Body& b, const fixed::Direction& axis, std::int64_t angle,
+               std::int64_t softness, fixed::Vec3& push);
 
 } // namespace lks

@@ -71,12 +71,8 @@ void project_turn(Joint& joint, Body& a, Body& b) {
     if (!fixed::normalise(turned_apart(joint, a, b) - joint.turn_start, way)) {
         return;
     }
-    const std::int64_t softness = joint.constants.angular_softness;
-    const std::int64_t angle =
-        softened(to_world_angle(way.length), fixed::dot(way.direction, joint.turn), softness);
-    const TurnRow row(joint, a, b, way.direction, softness);
-    joint.turn = joint.turn + fixed::scale(way.direction, row.turn_by(-angle));
-    clamp_vector(joint.turn, greatest_push);
+    turn_back(joint, a, b, way.direction, to_world_angle(way.length), joint.constants.angular_softness,
+              joint.turn);
 }
 
 void undo_turn(const Joint& joint, Body& a, Body& b) {

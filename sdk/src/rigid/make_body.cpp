@@ -35,12 +35,6 @@ BodyShape make_shape(const lks_body_shape& from) {
     return shape;
 }
 
-InverseMass invert_mass(const Scaled& mass) {
-    const Scaled inverse = Scaled::from_u64(1) / mass;
-    // The upper half of the mantissa.
-    return {static_cast<std::uint32_t>(inverse.mantissa >> 32), inverse.exponent + 32};
-}
-
 Scaled magnitude(std::int64_t value) {
     return Scaled::from_fixed(fixed::magnitude(value), world_fraction_bits);
 }
@@ -120,8 +114,9 @@ lks_body_def define_body(const BodyDescription& description, lks_body_shape* sha
 }
 
 void apply_description(Body& body, const BodyDescription& description) {
-    body.inverse_mass =
-        description.kind == LKS_BODY_KINEMATIC ? InverseMass{0, 0} : invert_mass(description.properties.mass);
+    body.inverse_mass = description.kind == LKS_BODY_KINEMATIC
+                            ? InverseMass{0, 0}
+                            : to_inverse_mass(Scaled::from_u64(1) / description.properties.mass);
     body.scale = description.properties.scale;
     body.inverse_shift = description.properties.inverse_shift;
     body.inverse_inertia = description.properties.inverse_inertia;
@@ -155,8 +150,20 @@ Body make_body(const BodyDescription& description, const lks_body_def& def) {
     return body;
 }
 
+InverseMass to_inverse_mass(const Scaled& value) {
+    if (value.is_zero()) {
+        return {0, 0};
+    }
+    // The upper half of the mantissa.
+    return {static_cast<std::uint32_t>(value.mantissa >> 32), value.exponent + 32};
+}
+
+Scaled to_scaled(const InverseMass& w) {
+    return Scaled::from_u64(w.mantissa).times_power_of_two(w.exponent);
+}
+
 Scaled inverse_mass(const Body& body) {
-    return Scaled::from_u64(body.inverse_mass.mantissa).times_power_of_two(body.inverse_mass.exponent);
+    return to_scaled(body.inverse_mass);
 }
 
 Scaled greater_inverse_mass(const PairShares& shares, const Body& a, const Body& b) {

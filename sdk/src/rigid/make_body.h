@@ -20,6 +20,9 @@ void place_body(Body& body, const BodyDescription& description, const fixed::Vec
                 const fixed::Rotation& rotation);
 fixed::Vec3 frame_position(const Body& body, const BodyDescription& description);
 
+// 1/kg.
+InverseMass to_inverse_mass(const fixed::Scaled& value);
+fixed::Scaled to_scaled(const InverseMass& inverse_mass);
 fixed::Scaled inverse_mass(const Body& body);
 // What the shares of two bodies are shares of.
 fixed::Scaled greater_inverse_mass(const PairShares& shares, const Body& a, const Body& b);

@@ -102,6 +102,16 @@ private:
                (scene_.bodies[d.body_a].is_awake() || scene_.bodies[d.body_b].is_awake());
     }
 
+    template <typename Use>
+    void for_each_joint(const Use& use) {
+        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+            if (is_at_work(i)) {
+                Joint& joint = scene_.joints[i];
+                use(joint, body_a(joint), body_b(joint));
+            }
+        }
+    }
+
     void project_joint(std::size_t index) {
         if (is_at_work(index)) {
             Joint& joint = scene_.joints[index];
@@ -148,12 +158,10 @@ private:
             scene_.ticks.push_reserved(
                 used(i) ? make_body_tick(scene_.descriptions[i], world_.rate, world_.gravity) : BodyTick{});
         }
-        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-            if (is_at_work(i)) {
-                scene_.joints[i].pushed = {0, 0, 0};
-                scene_.joints[i].turned = {0, 0, 0};
-            }
-        }
+        for_each_joint([](Joint& joint, Body&, Body&) {
+            joint.pushed = {0, 0, 0};
+            joint.turned = {0, 0, 0};
+        });
         for (const std::uint32_t index : scene_.coupled) {
             begin_object_tick(world_, coupled_object(index), world_.scratch[0]);
         }
@@ -170,12 +178,7 @@ private:
             const ContactBodies bodies = bodies_of(contact);
             begin_substep(contact, bodies.a, bodies.b);
         }
-        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-            if (is_at_work(i)) {
-                Joint& joint = scene_.joints[i];
-                lks::begin_substep(joint, body_a(joint), body_b(joint));
-            }
-        }
+        for_each_joint([](Joint& joint, Body& a, Body& b) { lks::begin_substep(joint, a, b); });
         strike_all();
         predict(substep);
         for (const std::uint32_t index : scene_.coupled) {
@@ -184,12 +187,7 @@ private:
         for_each_attachment([](Attachment& attachment, const AttachmentSides& sides) {
             lks::begin_substep(attachment, sides);
         });
-        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-            if (is_at_work(i)) {
-                Joint& joint = scene_.joints[i];
-                lks::warm_start(joint, body_a(joint), body_b(joint));
-            }
-        }
+        for_each_joint([](Joint& joint, Body& a, Body& b) { lks::warm_start(joint, a, b); });
         for (Contact& contact : scene_.contacts) {
             warm_start(contact, bodies_of(contact));
         }
@@ -199,9 +197,7 @@ private:
             }
             // Forward and back: a sweep in one direction only makes tall stacks sway.
             project_attachments();
-            for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-                project_joint(i);
-            }
+            for_each_joint([](Joint& joint, Body& a, Body& b) { lks::project(joint, a, b); });
             for (Contact& contact : scene_.contacts) {
                 project(contact, bodies_of(contact));
             }
@@ -227,11 +223,7 @@ private:
         for (const Contact& contact : scene_.contacts) {
             restore_speed(contact, bodies_of(contact), least_approach_);
         }
-        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-            if (is_at_work(i)) {
-                undo_error(scene_.joints[i], body_a(scene_.joints[i]), body_b(scene_.joints[i]));
-            }
-        }
+        for_each_joint([](Joint& joint, Body& a, Body& b) { undo_error(joint, a, b); });
         for (const Contact& contact : scene_.contacts) {
             undo_overlap(contact, bodies_of(contact), rate_);
         }

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "fixed/int128.h"
+
 namespace {
 
 constexpr lks_fixed millimetres(std::int64_t n) {
@@ -26,16 +28,17 @@ constexpr Leg legs[LKS_SPIDER_LEGS / 2] = {
     {{70, height, -85}, {220, 400, -250}, {360, 12, -430}},
 };
 
+std::int64_t root_of(std::int64_t square) {
+    return static_cast<std::int64_t>(
+        lks::fixed::square_root(lks::fixed::UInt128{0, static_cast<std::uint64_t>(square)}));
+}
+
 // The turn that takes +y along a unit vector (x, y, z), Q30, y > -1: (z, 0, -x, 1 + y), not normalised.
 lks_rotation along(std::int64_t x, std::int64_t y, std::int64_t z) {
     constexpr std::int64_t one = std::int64_t{1} << 30;
-    // |q|² = 2 + 2y, in Q30; its root by Newton's method.
+    // |q|² = 2 + 2y, in Q30.
     const std::int64_t w = one + y;
-    const std::int64_t squared = 2 * w;
-    std::int64_t root = one;
-    for (int i = 0; i < 40; ++i) {
-        root = (root + squared * one / root) / 2;
-    }
+    const std::int64_t root = root_of(2 * w * one);
     const auto part = [root](std::int64_t c) { return static_cast<std::int32_t>(c * one / root); };
     return {part(z), 0, part(-x), part(w)};
 }
@@ -50,10 +53,7 @@ Segment between(const std::int32_t (&a)[3], const std::int32_t (&b)[3], int side
     const std::int64_t d[3] = {side * std::int64_t{b[0] - a[0]}, b[1] - a[1], b[2] - a[2]};
     const std::int64_t squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     // Millimetres with 20 fraction bits.
-    std::int64_t length = std::int64_t{1} << 30;
-    for (int i = 0; i < 60; ++i) {
-        length = (length + (squared << 40) / length) / 2;
-    }
+    const std::int64_t length = root_of(squared << 40);
     const auto unit = [length](std::int64_t c) { return c * (std::int64_t{1} << 50) / length; };
     Segment s{};
     s.middle = {LKS_FIXED_RATIO(side * std::int64_t{a[0] + b[0]}, 2000), LKS_FIXED_RATIO(a[1] + b[1], 2000),
@@ -71,6 +71,21 @@ void make_bone(lks_bone& bone, lks_body_shape& shape, std::uint32_t parent, lks_
     bone.body.shapes = &shape;
     bone.body.shape_count = 1;
     bone.body.mass = mass;
+}
+
+// Degrees, thousandths of a newton metre, newton metres.
+struct BallJoint {
+    std::int64_t swing, twist, friction, torque;
+};
+
+void set_joint(lks_bone& bone, const lks_transform& frame, const BallJoint& joint) {
+    bone.joint_kind = LKS_JOINT_BALL;
+    bone.joint_frame = frame;
+    bone.swing_limit = LKS_FIXED(joint.swing);
+    bone.twist_min = -LKS_FIXED(joint.twist);
+    bone.twist_max = LKS_FIXED(joint.twist);
+    bone.friction = LKS_FIXED_RATIO(joint.friction, 1000);
+    bone.motor_torque = LKS_FIXED(joint.torque);
 }
 
 void make_leg_part(lks_bone& bone, lks_body_shape& shape, std::uint32_t parent, const Segment& segment,
@@ -92,26 +107,11 @@ void make_leg(lks_bone* bones, lks_body_shape* shapes, std::uint32_t index) {
                   LKS_FIXED_RATIO(4, 10));
     make_leg_part(bones[thigh + 1], shapes[thigh + 1], thigh, lower, millimetres(14),
                   LKS_FIXED_RATIO(25, 100));
-    lks_bone& hip = bones[thigh];
-    hip.joint_kind = LKS_JOINT_BALL;
-    hip.joint_frame = {
-        {millimetres(side * std::int64_t{leg.hip[0]}), millimetres(leg.hip[1]), millimetres(leg.hip[2])},
-        upper.rotation};
-    hip.swing_limit = LKS_FIXED(55);
-    hip.twist_min = LKS_FIXED(-15);
-    hip.twist_max = LKS_FIXED(15);
-    hip.friction = LKS_FIXED_RATIO(1, 2);
-    hip.motor_torque = LKS_FIXED(60);
-    lks_bone& knee = bones[thigh + 1];
-    knee.joint_kind = LKS_JOINT_BALL;
-    knee.joint_frame = {
-        {millimetres(side * std::int64_t{leg.knee[0]}), millimetres(leg.knee[1]), millimetres(leg.knee[2])},
-        lower.rotation};
-    knee.swing_limit = LKS_FIXED(60);
-    knee.twist_min = LKS_FIXED(-10);
-    knee.twist_max = LKS_FIXED(10);
-    knee.friction = LKS_FIXED_RATIO(3, 10);
-    knee.motor_torque = LKS_FIXED(40);
+    const auto place = [side](const std::int32_t(&p)[3]) {
+        return lks_vec3{millimetres(side * std::int64_t{p[0]}), millimetres(p[1]), millimetres(p[2])};
+    };
+    set_joint(bones[thigh], {place(leg.hip), upper.rotation}, {55, 15, 500, 60});
+    set_joint(bones[thigh + 1], {place(leg.knee), lower.rotation}, {60, 10, 300, 40});
 }
 
 } // namespace
@@ -135,14 +135,8 @@ extern "C" lks_result lks_spider(lks_bone bones[LKS_SPIDER_BONES], lks_body_shap
     shapes[LKS_SPIDER_ABDOMEN].half_length = millimetres(70);
     make_bone(bones[LKS_SPIDER_ABDOMEN], shapes[LKS_SPIDER_ABDOMEN], LKS_SPIDER_THORAX,
               {0, millimetres(height + 40), millimetres(-290)}, lying, LKS_FIXED_RATIO(38, 10));
-    lks_bone& abdomen = bones[LKS_SPIDER_ABDOMEN];
-    abdomen.joint_kind = LKS_JOINT_BALL;
-    abdomen.joint_frame = {{0, millimetres(height), millimetres(-110)}, lying};
-    abdomen.swing_limit = LKS_FIXED(25);
-    abdomen.twist_min = LKS_FIXED(-20);
-    abdomen.twist_max = LKS_FIXED(20);
-    abdomen.friction = LKS_FIXED(1);
-    abdomen.motor_torque = LKS_FIXED(40);
+    set_joint(bones[LKS_SPIDER_ABDOMEN], {{0, millimetres(height), millimetres(-110)}, lying},
+              {25, 20, 1000, 40});
     for (std::uint32_t leg = 0; leg < LKS_SPIDER_LEGS; ++leg) {
         make_leg(bones, shapes, leg);
     }
