@@ -187,6 +187,14 @@ TEST_CASE("poses and drives that are none are refused whole") {
           LKS_ERROR_INVALID_ARGUMENT);
     CHECK(lks_ragdoll_drive(world, &puppet.human.def, puppet.joints, pose.data(), fixed(1), fixed(101)) ==
           LKS_ERROR_INVALID_ARGUMENT);
+    puppet.human.def.struct_size = 5;
+    CHECK(lks_ragdoll_drive(world, &puppet.human.def, puppet.joints, pose.data(), fixed(1), 0) ==
+          LKS_ERROR_STRUCT_SIZE);
+    puppet.human.def.struct_size = sizeof(lks_ragdoll_def);
+    puppet.human.bones[6].parent = 9;
+    CHECK(lks_ragdoll_drive(world, &puppet.human.def, puppet.joints, pose.data(), fixed(1), 0) ==
+          LKS_ERROR_INVALID_ARGUMENT);
+    puppet.human.bones[6].parent = LKS_HUMANOID_CHEST;
     puppet.joints[2].generation = 9;
     CHECK(lks_ragdoll_drive(world, &puppet.human.def, puppet.joints, pose.data(), fixed(1), 0) ==
           LKS_ERROR_STALE_ID);

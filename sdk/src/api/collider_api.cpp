@@ -11,23 +11,20 @@ using namespace lks;
 
 namespace {
 
-std::int64_t to_coordinate(lks_fixed value) {
-    return value * (std::int64_t{1} << coordinate_from_world_shift); // at most 30 m, checked before
-}
-
 ColliderState make_collider(const lks_collider_def& def) {
     ColliderState collider{};
     collider.shape.kind = def.shape;
     // What a shape does not have stays zero, so that equal colliders have equal states.
     if (def.shape == LKS_SHAPE_SPHERE || def.shape == LKS_SHAPE_CAPSULE) {
-        collider.shape.radius = to_coordinate(def.radius);
+        collider.shape.radius = coordinate_from_world(def.radius);
     }
     if (def.shape == LKS_SHAPE_CAPSULE) {
-        collider.shape.half_length = to_coordinate(def.half_length);
+        collider.shape.half_length = coordinate_from_world(def.half_length);
     }
     if (def.shape == LKS_SHAPE_BOX) {
-        collider.shape.half_extents = {to_coordinate(def.half_extents.x), to_coordinate(def.half_extents.y),
-                                       to_coordinate(def.half_extents.z)};
+        collider.shape.half_extents = {coordinate_from_world(def.half_extents.x),
+                                       coordinate_from_world(def.half_extents.y),
+                                       coordinate_from_world(def.half_extents.z)};
     }
     collider.static_friction = def.static_friction;
     collider.dynamic_friction = def.dynamic_friction;

@@ -5,6 +5,7 @@
 
 #include "api/body_checks.h"
 #include "api/joint_checks.h"
+#include "api/ragdoll_checks.h"
 #include "collide/saturation.h"
 #include "rigid/body_motion.h"
 #include "rigid/make_body.h"
@@ -79,26 +80,14 @@ lks_fixed scaled_torque(const lks_bone& bone, const lks_ragdoll_def& def, lks_fi
 lks_result check_drive(const lks_world& world, const lks_ragdoll_def& def, const lks_joint_id* joints,
                        const lks_transform* pose, lks_fixed strength, lks_fixed response) {
     const Number numbers[] = {{"drive's strength", "", strength, 0, LKS_FIXED(100)},
-                              {"drive's response", " s", response, 0, LKS_FIXED(100)},
-                              {"ragdoll's scale", "", def.scale, LKS_FIXED_RATIO(5, 100), LKS_FIXED(20)}};
+                              {"drive's response", " s", response, 0, LKS_FIXED(100)}};
     if (const lks_result result = check_numbers(world, numbers); result != LKS_OK) {
         return result;
     }
-    if (def.bone_count < 1 || def.bone_count > LKS_MAX_BONES || def.bones == nullptr) {
-        return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "The ragdoll has " << def.bone_count
-                                                                 << " bones; it needs from 1 to "
-                                                                 << LKS_MAX_BONES << " that are not null.");
+    if (const lks_result result = check_bone_tree(world, def); result != LKS_OK) {
+        return result;
     }
     for (std::uint32_t i = 1; i < def.bone_count; ++i) {
-        const Number torque{"bone's motor_torque", " N·m", def.bones[i].motor_torque, 0, LKS_FIXED(1000000)};
-        if (const lks_result result = check_numbers(world, &torque, 1); result != LKS_OK) {
-            return result;
-        }
-        if (def.bones[i].parent >= i) {
-            return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "Bone " << i << " has the parent "
-                                                                     << def.bones[i].parent
-                                                                     << "; a parent is an earlier bone.");
-        }
         if (const lks_result result = require_joint(&world, joints[i - 1]); result != LKS_OK) {
             return result;
         }

@@ -3,6 +3,7 @@
 
 #include "api/body_checks.h"
 #include "api/joint_checks.h"
+#include "api/ragdoll_checks.h"
 #include "fixed/formats.h"
 
 using namespace lks;
@@ -86,12 +87,6 @@ lks_joint_def make_joint_def(const lks_bone& bone, const Placement& placement, c
 
 lks_result check_bone(const lks_world& world, const lks_ragdoll_def& def, std::uint32_t index) {
     const lks_bone& bone = def.bones[index];
-    if (index == 0 ? bone.parent != LKS_NO_PARENT : bone.parent >= index) {
-        return world.fail(LKS_ERROR_INVALID_ARGUMENT,
-                          Sentence() << "Bone " << index << " has the parent " << bone.parent
-                                     << (index == 0 ? "; the first bone is the root and has none."
-                                                    : "; a parent is an earlier bone."));
-    }
     if (bone.joint_kind > LKS_JOINT_FIXED) {
         return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "Bone " << index << " has the joint kind "
                                                                  << bone.joint_kind
@@ -116,20 +111,8 @@ lks_result check_bone(const lks_world& world, const lks_ragdoll_def& def, std::u
 }
 
 lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
-    if (def.struct_size != sizeof(lks_ragdoll_def)) {
-        return world.fail(LKS_ERROR_STRUCT_SIZE,
-                          wrong_struct_size("ragdoll_def", def.struct_size, sizeof(lks_ragdoll_def)));
-    }
-    if (def.bone_count < 1 || def.bone_count > LKS_MAX_BONES || def.bones == nullptr || def.reserved != 0) {
-        return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence()
-                                                          << "The ragdoll has " << def.bone_count
-                                                          << " bones, its reserved field is " << def.reserved
-                                                          << "; it needs from 1 to " << LKS_MAX_BONES
-                                                          << " bones that are not null, and 0.");
-    }
-    if (def.scale < LKS_FIXED_RATIO(5, 100) || def.scale > LKS_FIXED(20)) {
-        return world.fail(LKS_ERROR_INVALID_ARGUMENT, out_of_range("ragdoll's scale", def.scale, "",
-                                                                   LKS_FIXED_RATIO(5, 100), LKS_FIXED(20)));
+    if (const lks_result result = check_bone_tree(world, def); result != LKS_OK) {
+        return result;
     }
     if (const lks_result result = check_body_transform(world, def.transform); result != LKS_OK) {
         return result;
@@ -141,12 +124,6 @@ lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
         const lks_transform here{{0, 0, 0}, {0, 0, 0, LKS_ROTATION_ONE}};
         const lks_joint_def joint = make_joint_def(def.bones[i], Placement(def), here, here);
         if (const lks_result result = i > 0 ? check_joint_ranges(world, joint) : LKS_OK; result != LKS_OK) {
-            return result;
-        }
-    }
-    for (std::uint32_t i = 0; i < def.bone_count; ++i) {
-        const Number torque{"bone's motor_torque", " N·m", def.bones[i].motor_torque, 0, LKS_FIXED(1000000)};
-        if (const lks_result result = check_numbers(world, &torque, 1); result != LKS_OK) {
             return result;
         }
     }

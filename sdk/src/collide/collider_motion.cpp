@@ -63,8 +63,7 @@ bool cut_to_limit(fixed::Vec3& a, fixed::Vec3& b) {
 }
 
 fixed::Vec3 to_coordinate(const fixed::Vec3& v) {
-    constexpr std::int64_t scale = std::int64_t{1} << coordinate_from_world_shift;
-    return {v.x * scale, v.y * scale, v.z * scale};
+    return {coordinate_from_world(v.x), coordinate_from_world(v.y), coordinate_from_world(v.z)};
 }
 
 fixed::Vec3 position_at(const ColliderState& collider, std::uint32_t substep, std::uint32_t substeps) {

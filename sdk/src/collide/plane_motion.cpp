@@ -88,6 +88,13 @@ fixed::Int128 height_above_plane(const fixed::Direction& normal, const fixed::Ve
     return dot_exact(normal, point) - (world << coordinate_from_world_shift);
 }
 
+std::int64_t world_height_above_plane(const fixed::Direction& normal, const fixed::Vec3& position,
+                                      const fixed::Vec3& point) {
+    const fixed::Int128 height = height_above_plane(normal, position, point, {0, 0, 0});
+    return fixed::saturate_to_int64(
+        fixed::shift_right_rounded(height, height_fraction_bits - world_fraction_bits));
+}
+
 fixed::Int128 lowest_height(const fixed::Direction& normal, const fixed::Vec3& position,
                             const fixed::Vec3& origin, const Bounds& bounds) {
     const fixed::Vec3 corner = {normal.x > 0 ? bounds.low.x : bounds.high.x,

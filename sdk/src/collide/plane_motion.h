@@ -11,6 +11,9 @@ namespace lks {
 // moving both changes nothing.
 fixed::Int128 height_above_plane(const fixed::Direction& normal, const fixed::Vec3& position,
                                  const fixed::Vec3& origin, const fixed::Vec3& point);
+// The same of a World point, World, to the nearest; saturates.
+std::int64_t world_height_above_plane(const fixed::Direction& normal, const fixed::Vec3& position,
+                                      const fixed::Vec3& point);
 inline constexpr int height_fraction_bits = coordinate_fraction_bits + direction_fraction_bits;
 
 // The height of the lowest corner of the bounds.

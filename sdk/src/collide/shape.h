@@ -28,6 +28,15 @@ struct Shape {
     fixed::Vec3 half_extents;
 };
 
+// A shape of Coordinate lengths with World ones.
+constexpr Shape world_shape(const Shape& shape) {
+    const fixed::Vec3& e = shape.half_extents;
+    return {shape.kind,
+            world_from_coordinate(shape.radius),
+            world_from_coordinate(shape.half_length),
+            {world_from_coordinate(e.x), world_from_coordinate(e.y), world_from_coordinate(e.z)}};
+}
+
 struct SurfacePoint {
     std::int64_t distance;   // negative inside
     fixed::Direction normal; // outwards

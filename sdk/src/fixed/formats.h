@@ -13,6 +13,14 @@ inline constexpr int world_fraction_bits = 40;
 // in metres a substep, in the same unit: exact.
 inline constexpr int coordinate_fraction_bits = 56;
 inline constexpr int coordinate_from_world_shift = coordinate_fraction_bits - world_fraction_bits;
+// Exact; the value must be within ±128 m.
+constexpr std::int64_t coordinate_from_world(std::int64_t value) {
+    return value * (std::int64_t{1} << coordinate_from_world_shift);
+}
+// Rounded down.
+constexpr std::int64_t world_from_coordinate(std::int64_t value) {
+    return value >> coordinate_from_world_shift;
+}
 inline constexpr std::int64_t coordinate_one = std::int64_t{1} << coordinate_fraction_bits;
 // Particles live within ±64 m of their object's origin: the difference of any two then fits into 64 bits.
 inline constexpr std::int64_t coordinate_limit = (std::int64_t{1} << 62) - 1;

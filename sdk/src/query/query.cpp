@@ -16,10 +16,6 @@ using fixed::Vec3;
 // A hit is accepted this close in front of the surface: a micrometre.
 constexpr std::int64_t tolerance = std::int64_t{1} << (world_fraction_bits - 20);
 
-std::int64_t from_coordinate(std::int64_t value) {
-    return value >> coordinate_from_world_shift;
-}
-
 // One shape where it is: everything in World.
 struct PlacedShape {
     Shape shape;
@@ -56,16 +52,12 @@ private:
             if (!slot.used) {
                 continue;
             }
-            const Shape& s = slot.collider.shape;
-            const Vec3& e = s.half_extents;
-            const Shape shape{s.kind,
-                              from_coordinate(s.radius),
-                              from_coordinate(s.half_length),
-                              {from_coordinate(e.x), from_coordinate(e.y), from_coordinate(e.z)}};
             lks_hit hit{};
             hit.kind = LKS_HIT_COLLIDER;
             hit.collider = {i, slot.generation};
-            use(PlacedShape{shape, slot.collider.position, fixed::to_matrix(slot.collider.rotation)}, hit);
+            use(PlacedShape{world_shape(slot.collider.shape), slot.collider.position,
+                            fixed::to_matrix(slot.collider.rotation)},
+                hit);
         }
     }
 
@@ -94,7 +86,7 @@ private:
     static PlacedShape place(const Body& body, const BodyShape& s) {
         return {{s.kind, s.radius, s.half_length, s.half_extents},
                 body.position + fixed::rotate(body.rotation, s.position),
-                fixed::multiply(body.rotation, fixed::to_matrix(s.rotation))};
+                shape_axes(body.rotation, s)};
     }
 
     template <typename Use>
@@ -104,7 +96,7 @@ private:
             if (object == nullptr) {
                 continue;
             }
-            const std::int64_t radius = from_coordinate(object->asset().particle_radius);
+            const std::int64_t radius = world_from_coordinate(object->asset().particle_radius);
             for (std::uint32_t vertex = 0; vertex < object->count(); ++vertex) {
                 const Vec3 position = particle_position(*object, object->asset().vertex_to_particle[vertex]);
                 if (!around(position, radius).overlaps(reach)) {
@@ -133,14 +125,9 @@ private:
 // A plane may be anywhere: of it the height counts alone, and that is exact.
 Vec3 to_local(const PlacedShape& placed, const Vec3& p) {
     if (placed.shape.kind == LKS_SHAPE_PLANE) {
-        const fixed::Int128 height =
-            height_above_plane(plane_normal(placed.axes), placed.centre, p, Vec3{0, 0, 0});
         constexpr std::int64_t most = std::int64_t{1} << 61;
-        return {0,
-                std::clamp(fixed::saturate_to_int64(fixed::shift_right_rounded(
-                               height, height_fraction_bits - world_fraction_bits)),
-                           -most, most),
-                0};
+        const std::int64_t height = world_height_above_plane(plane_normal(placed.axes), placed.centre, p);
+        return {0, std::clamp(height, -most, most), 0};
     }
     // What is 2,000 km away is nowhere near.
     Vec3 relative = saturating_subtract(p, placed.centre);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
-#include "rigid/body_motion.h"
 #include "rigid/make_body.h"
 
 namespace lks {
@@ -48,8 +47,8 @@ InverseMass particle_inverse_mass(const Object& object, std::uint32_t particle) 
 
 Vec3 particle_position(const Object& object, std::uint32_t particle) {
     const Coordinates at = object.position(particle);
-    return object.origin + Vec3{at.x >> coordinate_from_world_shift, at.y >> coordinate_from_world_shift,
-                                at.z >> coordinate_from_world_shift};
+    return object.origin +
+           Vec3{world_from_coordinate(at.x), world_from_coordinate(at.y), world_from_coordinate(at.z)};
 }
 
 void move_particle(Object& object, std::uint32_t particle, const Vec3& shift) {
@@ -57,8 +56,7 @@ void move_particle(Object& object, std::uint32_t particle, const Vec3& shift) {
     constexpr std::int64_t most = std::int64_t{128} << world_fraction_bits;
     const std::int64_t shifts[3] = {shift.x, shift.y, shift.z};
     for (int axis = 0; axis < 3; ++axis) {
-        const std::int64_t by =
-            std::clamp(shifts[axis], -most, most - 1) * (std::int64_t{1} << coordinate_from_world_shift);
+        const std::int64_t by = coordinate_from_world(std::clamp(shifts[axis], -most, most - 1));
         std::int64_t& x = object.axis(axis)[particle];
         x = std::clamp(fixed::saturating_add(x, by), -coordinate_limit, coordinate_limit);
     }

@@ -97,4 +97,11 @@ struct Body {
     void follow_orientation() { rotation = fixed::to_matrix(narrow(orientation)); }
 };
 
+// A shape's own axes in the world, where its body is turned so.
+inline fixed::Matrix3 shape_axes(const fixed::Matrix3& body_rotation, const BodyShape& shape) {
+    return shape.rotation == fixed::identity_rotation()
+               ? body_rotation
+               : fixed::multiply(body_rotation, fixed::to_matrix(shape.rotation));
+}
+
 } // namespace lks

@@ -12,13 +12,6 @@ namespace {
 using fixed::Direction;
 using fixed::Vec3;
 
-// What is this near is looked at, whatever its speed: two centimetres.
-constexpr std::int64_t near = (std::int64_t{1} << world_fraction_bits) / 50;
-
-std::int64_t from_coordinate(std::int64_t value) {
-    return value >> coordinate_from_world_shift; // exact: it came from World
-}
-
 // In its place, relative to `reference`.
 Piece piece_of_body(const Body& body, const BodyShape& shape, const Vec3& reference) {
     Piece piece{};
@@ -27,26 +20,22 @@ Piece piece_of_body(const Body& body, const BodyShape& shape, const Vec3& refere
     piece.half_length = shape.half_length;
     piece.half_extents = shape.half_extents;
     piece.centre = (body.position - reference) + fixed::rotate(body.rotation, shape.position);
-    piece.axes = shape.rotation == fixed::identity_rotation()
-                     ? body.rotation
-                     : fixed::multiply(body.rotation, fixed::to_matrix(shape.rotation));
+    piece.axes = shape_axes(body.rotation, shape);
     return piece;
 }
 
 Piece piece_of_collider(const Body& body, const ColliderState& collider, const Vec3& reference) {
     Piece piece{};
-    piece.kind = collider.shape.kind;
-    piece.radius = from_coordinate(collider.shape.radius);
-    piece.half_length = from_coordinate(collider.shape.half_length);
-    const Vec3& e = collider.shape.half_extents;
-    piece.half_extents = {from_coordinate(e.x), from_coordinate(e.y), from_coordinate(e.z)};
+    const Shape shape = world_shape(collider.shape);
+    piece.kind = shape.kind;
+    piece.radius = shape.radius;
+    piece.half_length = shape.half_length;
+    piece.half_extents = shape.half_extents;
     piece.axes = body.rotation;
     if (collider.shape.kind == LKS_SHAPE_PLANE) {
         // The point of the plane that is nearest to the reference: the plane's own may be anywhere.
         const Direction up = plane_normal(body.rotation);
-        const fixed::Int128 height = height_above_plane(up, body.position, reference, Vec3{0, 0, 0});
-        const std::int64_t lift = fixed::saturate_to_int64(
-            fixed::shift_right_rounded(height, height_fraction_bits - world_fraction_bits));
+        const std::int64_t lift = world_height_above_plane(up, body.position, reference);
         constexpr std::int64_t limit = std::int64_t{128} << world_fraction_bits;
         piece.centre = -fixed::scale(up, std::clamp(lift, -limit, limit));
     } else {
@@ -142,7 +131,8 @@ private:
     // A body's box in this tick, with some room.
     Box box_of_body(std::uint32_t index) const {
         const Body& body = scene_.bodies[index];
-        const std::int64_t room = near + scene_.travels[index] + per_tick(sum_of_magnitudes(body.velocity));
+        const std::int64_t room =
+            near_distance + scene_.travels[index] + per_tick(sum_of_magnitudes(body.velocity));
         Box box{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
         for (std::uint32_t i = 0; i < scene_.descriptions[index].shape_count; ++i) {
             const Vec3 reach = extent(piece(index, i)) + Vec3{room, room, room};
@@ -150,7 +140,7 @@ private:
             include(box, body.position + c, reach);
             if (!body.is_dynamic()) {
                 // However it turns on its way.
-                const std::int64_t radius = scene_.descriptions[index].radius + near;
+                const std::int64_t radius = scene_.descriptions[index].radius + near_distance;
                 include(box, body.position, {radius, radius, radius});
                 include(box, body.target_position, {radius, radius, radius});
             }
@@ -198,7 +188,7 @@ private:
             }
             return;
         }
-        const std::int64_t room = from_coordinate(bounding_radius(collider.shape, 0)) + 1;
+        const std::int64_t room = world_from_coordinate(bounding_radius(collider.shape, 0)) + 1;
         const Vec3& p = collider.position;
         Box box{{p.x - room, p.y - room, p.z - room}, {p.x + room, p.y + room, p.z + room}};
         include(box, collider.target_position, {room, room, room});
@@ -211,7 +201,7 @@ private:
         const Body& body = scene_.bodies[index];
         const std::int64_t radius = scene_.descriptions[index].radius;
         const std::int64_t room =
-            radius + near + scene_.travels[index] + per_tick(sum_of_magnitudes(body.velocity));
+            radius + near_distance + scene_.travels[index] + per_tick(sum_of_magnitudes(body.velocity));
         const auto below = [&](const fixed::Rotation& rotation, const Vec3& position) {
             const fixed::Int128 height = height_above_plane(plane_normal(fixed::to_matrix(rotation)),
                                                             position, body.position, Vec3{0, 0, 0});
@@ -274,7 +264,7 @@ private:
                 if (!with_collider) {
                     piece_b.centre = piece_b.centre + between;
                 }
-                if (!apart(piece(a, i), piece_b, motion + near)) {
+                if (!apart(piece(a, i), piece_b, motion + near_distance)) {
                     add_contact({a, other, i * LKS_MAX_BODY_SHAPES + j}, piece(a, i), piece_b, motion);
                 }
             }
@@ -288,7 +278,7 @@ private:
         }
         const Shape& shape = collider_of(other).shape;
         const bool plane = shape.kind == LKS_SHAPE_PLANE;
-        const std::int64_t lever = plane ? LKS_FIXED(64) : from_coordinate(bounding_radius(shape, 0));
+        const std::int64_t lever = plane ? LKS_FIXED(64) : world_from_coordinate(bounding_radius(shape, 0));
         // A collider turns by a quarter at most in a tick.
         return 2 * lever;
     }
@@ -313,7 +303,7 @@ private:
         // One look a tick is enough where neither passes the other's middle in it.
         const bool fast = motion > fixed::saturating_add(thickness(a), thickness(b));
         Manifold manifold;
-        collide(a, b, motion + near, manifold);
+        collide(a, b, motion + near_distance, manifold);
         // Boxes beside each other show no points, and may yet meet at their edges.
         const bool unclear = fast && manifold.count == 0;
         drop_what_stays_apart(manifold, key, motion);
@@ -380,7 +370,7 @@ private:
         const std::int64_t spinning = motion - travel_along(a, b);
         std::uint32_t kept = 0;
         for (std::uint32_t i = 0; i < manifold.count; ++i) {
-            if (manifold.points[i].separation <= near + closing + spinning) {
+            if (manifold.points[i].separation <= near_distance + closing + spinning) {
                 manifold.points[kept++] = manifold.points[i];
             }
         }
@@ -456,8 +446,8 @@ void find_points_again(const lks_world& world, Contact& contact) {
     Manifold manifold;
     manifold.normal = contact.normal;
     manifold.count = 0;
-    if (!apart(piece_a, piece_b, motion + near)) {
-        collide(piece_a, piece_b, motion + near, manifold);
+    if (!apart(piece_a, piece_b, motion + near_distance)) {
+        collide(piece_a, piece_b, motion + near_distance, manifold);
     }
     take_manifold(contact, manifold, a, b);
 }

@@ -9,9 +9,6 @@ namespace {
 
 using fixed::Vec3;
 
-// What is this near is looked at, whatever its speed: two centimetres.
-constexpr std::int64_t near = (std::int64_t{1} << world_fraction_bits) / 50;
-
 class Coupling {
 public:
     explicit Coupling(lks_world& world) : world_(world), scene_(world.rigid) {
@@ -99,7 +96,7 @@ private:
     // However it turns.
     Box box_of_body(const Body& body, const BodyDescription& description) const {
         const std::int64_t speed = body.is_awake() ? per_tick(sum_of_magnitudes(body.velocity)) : 0;
-        const std::int64_t reach = description.radius + near + 2 * speed + fall_;
+        const std::int64_t reach = description.radius + near_distance + 2 * speed + fall_;
         const auto low = [reach](std::int64_t p, std::int64_t q) {
             return saturating_subtract(std::min(p, q), reach);
         };
@@ -116,18 +113,17 @@ private:
     Box box_of_object(const Object& object) const {
         Bounds bounds = object.bounds();
         for (const Pin& pin : object.pins()) {
-            bounds.low = {std::min(bounds.low.x, pin.target.x), std::min(bounds.low.y, pin.target.y),
-                          std::min(bounds.low.z, pin.target.z)};
-            bounds.high = {std::max(bounds.high.x, pin.target.x), std::max(bounds.high.y, pin.target.y),
-                           std::max(bounds.high.z, pin.target.z)};
+            include(bounds, pin.target);
         }
-        const auto to_world = [](std::int64_t c) { return c >> coordinate_from_world_shift; };
         const std::int64_t motion =
-            to_world(object.greatest_motion()) * static_cast<std::int64_t>(world_.rate.substeps);
-        const std::int64_t reach = near + fall_ + 2 * motion + to_world(object.asset().particle_radius) + 1;
+            world_from_coordinate(object.greatest_motion()) * static_cast<std::int64_t>(world_.rate.substeps);
+        const std::int64_t reach =
+            near_distance + fall_ + 2 * motion + world_from_coordinate(object.asset().particle_radius) + 1;
         const Vec3& o = object.origin;
-        const Vec3 low{to_world(bounds.low.x), to_world(bounds.low.y), to_world(bounds.low.z)};
-        const Vec3 high{to_world(bounds.high.x), to_world(bounds.high.y), to_world(bounds.high.z)};
+        const Vec3 low{world_from_coordinate(bounds.low.x), world_from_coordinate(bounds.low.y),
+                       world_from_coordinate(bounds.low.z)};
+        const Vec3 high{world_from_coordinate(bounds.high.x), world_from_coordinate(bounds.high.y),
+                        world_from_coordinate(bounds.high.z)};
         const Vec3 all{reach, reach, reach};
         return {saturating_subtract(saturating_add(o, low), all),
                 saturating_add(saturating_add(o, high), all)};

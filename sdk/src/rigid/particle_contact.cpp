@@ -12,10 +12,7 @@ namespace {
 
 using fixed::Vec3;
 
-std::int64_t to_coordinate(std::int64_t world) {
-    return world * (std::int64_t{1} << coordinate_from_world_shift);
-}
-
+// To the nearest.
 std::int64_t to_world(std::int64_t coordinate) {
     return fixed::shift_right_rounded(coordinate, coordinate_from_world_shift);
 }
@@ -25,19 +22,14 @@ class BodyShapePlace {
 public:
     BodyShapePlace(const Body& body, const BodyShape& shape) : body_(body), shape_(shape) {}
 
-    fixed::Matrix3 axes(const fixed::Matrix3& rotation) const {
-        return shape_.rotation == fixed::identity_rotation()
-                   ? rotation
-                   : fixed::multiply(rotation, fixed::to_matrix(shape_.rotation));
-    }
-
     ShapeWay way(const Surface& surface) const {
         ShapeWay way{};
         way.shape.kind = shape_.kind;
-        way.shape.radius = to_coordinate(shape_.radius);
-        way.shape.half_length = to_coordinate(shape_.half_length);
+        way.shape.radius = coordinate_from_world(shape_.radius);
+        way.shape.half_length = coordinate_from_world(shape_.half_length);
         const Vec3& e = shape_.half_extents;
-        way.shape.half_extents = {to_coordinate(e.x), to_coordinate(e.y), to_coordinate(e.z)};
+        way.shape.half_extents = {coordinate_from_world(e.x), coordinate_from_world(e.y),
+                                  coordinate_from_world(e.z)};
         const bool still = body_.asleep != 0;
         const Quaternion& start = still ? body_.orientation : body_.start_orientation;
         const fixed::Matrix3 start_rotation = fixed::to_matrix(narrow(start));
@@ -45,8 +37,8 @@ public:
             (still ? body_.position : body_.start_position) + fixed::rotate(start_rotation, shape_.position);
         way.end = body_.position + fixed::rotate(body_.rotation, shape_.position);
         way.rotating = !(narrow(start) == narrow(body_.orientation));
-        way.start_rotation = axes(start_rotation);
-        way.end_rotation = axes(body_.rotation);
+        way.start_rotation = shape_axes(start_rotation, shape_);
+        way.end_rotation = shape_axes(body_.rotation, shape_);
         way.static_friction = surface.static_friction;
         way.dynamic_friction = surface.dynamic_friction;
         return way;
@@ -59,8 +51,9 @@ public:
         constexpr std::int64_t limit = std::int64_t{126} << world_fraction_bits;
         Vec3 bounded = centre;
         clamp_vector(bounded, limit);
-        frame.end_centre = {to_coordinate(bounded.x), to_coordinate(bounded.y), to_coordinate(bounded.z)};
-        frame.end_rotation = axes(body_.rotation);
+        frame.end_centre = {coordinate_from_world(bounded.x), coordinate_from_world(bounded.y),
+                            coordinate_from_world(bounded.z)};
+        frame.end_rotation = shape_axes(body_.rotation, shape_);
     }
 
 private:
@@ -104,7 +97,7 @@ public:
         const std::int64_t p = divide(to_world(way.length), invert(weight));
         push(body_, side, fixed::scale(way.direction, p), p, -1);
         place_.follow(frame_, object_.origin);
-        return fixed::scale(way.direction, fixed::scale_component(shares.a, to_coordinate(p)));
+        return fixed::scale(way.direction, fixed::scale_component(shares.a, coordinate_from_world(p)));
     }
 
 private:
@@ -119,7 +112,7 @@ class Struck final : public Reaction {
 public:
     Struck(const HeldParticles& held, const Object& object, Body& body, const MotionRate& rate)
         : Reaction(held), object_(object), body_(body), rate_(rate),
-          least_(to_coordinate(LKS_FIXED_RATIO(1, 4) / rate.substeps_per_second)) {}
+          least_(coordinate_from_world(LKS_FIXED_RATIO(1, 4) / rate.substeps_per_second)) {}
 
     Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
         const std::int64_t size = sum_of_magnitudes(correction);

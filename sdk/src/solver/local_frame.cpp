@@ -53,7 +53,7 @@ std::int64_t local_axis(std::int64_t position, std::int64_t origin, bool& clampe
     const std::int64_t difference = saturating_subtract(position, origin);
     const std::int64_t bounded = std::clamp(difference, -limit, limit);
     clamped = clamped || bounded != difference;
-    return bounded * (std::int64_t{1} << coordinate_from_world_shift);
+    return coordinate_from_world(bounded);
 }
 
 } // namespace

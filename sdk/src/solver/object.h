@@ -3,6 +3,7 @@
 
 #include <lockstitch/object.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "asset/asset.h"
@@ -23,6 +24,13 @@ struct Bounds {
     fixed::Vec3 low;
     fixed::Vec3 high;
 };
+
+inline void include(Bounds& bounds, const Coordinates& point) {
+    bounds.low = {std::min(bounds.low.x, point.x), std::min(bounds.low.y, point.y),
+                  std::min(bounds.low.z, point.z)};
+    bounds.high = {std::max(bounds.high.x, point.x), std::max(bounds.high.y, point.y),
+                   std::max(bounds.high.z, point.z)};
+}
 
 // Position and start of the substep, x, y, z each.
 inline constexpr int axis_count = 6;

@@ -213,13 +213,6 @@ private:
         return blocks;
     }
 
-    static void include(Bounds& bounds, const Coordinates& point) {
-        bounds.low = {std::min(bounds.low.x, point.x), std::min(bounds.low.y, point.y),
-                      std::min(bounds.low.z, point.z)};
-        bounds.high = {std::max(bounds.high.x, point.x), std::max(bounds.high.y, point.y),
-                       std::max(bounds.high.z, point.z)};
-    }
-
     static void grow(Bounds& bounds, std::int64_t reach) {
         const auto lower = [reach](std::int64_t value) {
             return std::clamp(value, -coordinate_limit, coordinate_limit) - reach;

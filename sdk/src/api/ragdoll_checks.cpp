@@ -1,0 +1,37 @@
+#include "api/ragdoll_checks.h"
+
+namespace lks {
+
+lks_result check_bone_tree(const lks_world& world, const lks_ragdoll_def& def) {
+    if (def.struct_size != sizeof(lks_ragdoll_def)) {
+        return world.fail(LKS_ERROR_STRUCT_SIZE,
+                          wrong_struct_size("ragdoll_def", def.struct_size, sizeof(lks_ragdoll_def)));
+    }
+    if (def.bone_count < 1 || def.bone_count > LKS_MAX_BONES || def.bones == nullptr || def.reserved != 0) {
+        return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence()
+                                                          << "The ragdoll has " << def.bone_count
+                                                          << " bones, its reserved field is " << def.reserved
+                                                          << "; it needs from 1 to " << LKS_MAX_BONES
+                                                          << " bones that are not null, and 0.");
+    }
+    if (def.scale < LKS_FIXED_RATIO(5, 100) || def.scale > LKS_FIXED(20)) {
+        return world.fail(LKS_ERROR_INVALID_ARGUMENT, out_of_range("ragdoll's scale", def.scale, "",
+                                                                   LKS_FIXED_RATIO(5, 100), LKS_FIXED(20)));
+    }
+    for (std::uint32_t i = 0; i < def.bone_count; ++i) {
+        const lks_bone& bone = def.bones[i];
+        if (i == 0 ? bone.parent != LKS_NO_PARENT : bone.parent >= i) {
+            return world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                              Sentence() << "Bone " << i << " has the parent " << bone.parent
+                                         << (i == 0 ? "; the first bone is the root and has none."
+                                                    : "; a parent is an earlier bone."));
+        }
+        const Number torque[] = {{"bone's motor_torque", " N·m", bone.motor_torque, 0, LKS_FIXED(1000000)}};
+        if (const lks_result result = check_numbers(world, torque); result != LKS_OK) {
+            return result;
+        }
+    }
+    return LKS_OK;
+}
+
+} // namespace lks
