@@ -77,6 +77,8 @@ TEST_CASE("fixed: 64 x 64 -> 128 bit products are exact") {
     for_pairs(1, [&](std::uint64_t a, std::uint64_t b) {
         const std::int64_t sa = static_cast<std::int64_t>(a), sb = static_cast<std::int64_t>(b);
         tally.expect(big(multiply(a, b)) == big(a) * big(b), a, b);
+        tally.expect(multiply_halves(a, b) == multiply(a, b), a, b);
+        tally.expect(multiply_signed_halves(sa, sb) == multiply(sa, sb), a, b);
         tally.expect(big(multiply(sa, sb)) == big(sa) * big(sb), a, b);
     });
     LKS_CHECK_TALLY(tally);

@@ -109,7 +109,7 @@ constexpr int leading_zeros(UInt128 a) {
 }
 
 // Schoolbook on 32-bit halves. `middle` cannot overflow: it is at most 3 * (2^32 - 1).
-constexpr UInt128 multiply_unsigned(std::uint64_t a, std::uint64_t b) {
+constexpr UInt128 multiply_halves(std::uint64_t a, std::uint64_t b) {
     constexpr std::uint64_t low_half = 0xffffffffu;
     const std::uint64_t a0 = a & low_half, a1 = a >> 32;
     const std::uint64_t b0 = b & low_half, b1 = b >> 32;
@@ -118,12 +118,33 @@ constexpr UInt128 multiply_unsigned(std::uint64_t a, std::uint64_t b) {
     return {p11 + (p01 >> 32) + (p10 >> 32) + (middle >> 32), (middle << 32) | (p00 & low_half)};
 }
 
+// By the machine's own product where the compiler has it: the same in one instruction.
+constexpr UInt128 multiply_unsigned(std::uint64_t a, std::uint64_t b) {
+#if defined(__SIZEOF_INT128__)
+    __extension__ using Native = unsigned __int128;
+    const Native product = static_cast<Native>(a) * b;
+    return {static_cast<std::uint64_t>(product >> 64), static_cast<std::uint64_t>(product)};
+#else
+    return multiply_halves(a, b);
+#endif
+}
+
 // A negative factor was read as itself plus 2^64; the correction takes the other factor off the high half.
-constexpr Int128 multiply_signed(std::int64_t a, std::int64_t b) {
+constexpr Int128 multiply_signed_halves(std::int64_t a, std::int64_t b) {
     const std::uint64_t ua = static_cast<std::uint64_t>(a), ub = static_cast<std::uint64_t>(b);
-    UInt128 product = multiply_unsigned(ua, ub);
+    UInt128 product = multiply_halves(ua, ub);
     product.hi -= (a < 0 ? ub : 0) + (b < 0 ? ua : 0);
     return as_signed(product);
+}
+
+constexpr Int128 multiply_signed(std::int64_t a, std::int64_t b) {
+#if defined(__SIZEOF_INT128__)
+    __extension__ using Native = __int128;
+    const Native product = static_cast<Native>(a) * b;
+    return {static_cast<std::int64_t>(product >> 64), static_cast<std::uint64_t>(product)};
+#else
+    return multiply_signed_halves(a, b);
+#endif
 }
 
 constexpr UInt128 multiply(std::uint64_t a, std::uint64_t b) {
