@@ -55,12 +55,6 @@ Vector force_of(const World& world, lks_attachment_id id) {
     return metres(force);
 }
 
-double mass_of(const World& world, lks_body_id body) {
-    lks_fixed mass = 0;
-    REQUIRE(lks_body_mass(world, body, &mass) == LKS_OK);
-    return metres(mass);
-}
-
 // The x momentum of particles of equal masses.
 Vector momentum_of(const World& world, lks_object_id object, double mass) {
     Vector sum{};

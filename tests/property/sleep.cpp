@@ -76,6 +76,17 @@ TEST_CASE("what the game does to one wakes its island, and nobody else") {
     }
 }
 
+TEST_CASE("who lies beside a sleeper falls asleep, too") {
+    // Half a millimetre apart, and none pushes the other; they land one after the other.
+    World world(world_def(60, 8));
+    add_ground(world);
+    for (int i = 0; i < 6; ++i) {
+        add_body(world, box_shape(0.2, 0.2, 0.2), fixed(0.4005 * i, 0.2 + 0.15 * i, 0));
+    }
+    world.step(600);
+    CHECK(lks_world_awake_body_count(world) == 0);
+}
+
 TEST_CASE("who loses what it rests on wakes and falls") {
     Boxes boxes;
     REQUIRE(lks_world_remove_body(boxes.world, boxes.bodies[0]) == LKS_OK);

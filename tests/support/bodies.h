@@ -110,6 +110,12 @@ inline BodyState state_of(const World& world, lks_body_id body) {
     return {metres(transform.position), metres(velocity), metres(spin), transform.rotation};
 }
 
+inline double mass_of(const World& world, lks_body_id body) {
+    lks_fixed mass = 0;
+    REQUIRE(lks_body_mass(world, body, &mass) == LKS_OK);
+    return metres(mass);
+}
+
 inline double energy_of(const World& world) {
     lks_fixed energy = 0;
     REQUIRE(lks_world_kinetic_energy(world, &energy) == LKS_OK);

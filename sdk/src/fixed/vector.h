@@ -86,6 +86,11 @@ constexpr Vec3 scale(Direction d, std::int64_t s) {
     return {scale_component(d.x, s), scale_component(d.y, s), scale_component(d.z, s)};
 }
 
+// The share a / 2^30 of each component.
+constexpr Vec3 scaled(std::int32_t a, Vec3 v) {
+    return {scale_component(a, v.x), scale_component(a, v.y), scale_component(a, v.z)};
+}
+
 // Exact; at most 3 * 2^126.
 constexpr UInt128 length_squared(Vec3 v) {
     const std::uint64_t x = magnitude(v.x), y = magnitude(v.y), z = magnitude(v.z);

@@ -22,19 +22,14 @@ std::uint32_t movable(const AttachmentDescription& d, const AttachmentSides& sid
     return (particle ? 1u : 0u) | (other ? 2u : 0u);
 }
 
-Vec3 share_of(std::int32_t share, const Vec3& p) {
-    return {fixed::scale_component(share, p.x), fixed::scale_component(share, p.y),
-            fixed::scale_component(share, p.z)};
-}
-
 void push_apart(const Attachment& attachment, const AttachmentSides& sides, const Vec3& p) {
     const AttachmentDescription& d = attachment.description;
     const PairShares& shares = attachment.constants.shares;
-    move_particle(sides.object, d.particle, -share_of(shares.a, p));
+    move_particle(sides.object, d.particle, -fixed::scaled(shares.a, p));
     if (sides.body != nullptr) {
         push(*sides.body, attachment.side, p, 1);
     } else {
-        move_particle(*sides.other, d.other_particle, share_of(shares.b, p));
+        move_particle(*sides.other, d.other_particle, fixed::scaled(shares.b, p));
     }
 }
 
@@ -95,6 +90,9 @@ Scaled greater_inverse_mass(const Attachment& attachment, const AttachmentSides&
 }
 
 void begin_tick(Attachment& attachment, const AttachmentSides& sides, const StepRate& rate) {
+    const auto n = static_cast<std::int64_t>(rate.substeps);
+    const Vec3& sum = attachment.pushed;
+    attachment.expected = {sum.x / n, sum.y / n, sum.z / n};
     attachment.pushed = {0, 0, 0};
     if (attachment.constants.movable != movable(attachment.description, sides)) {
         attachment.constants = make_attachment_constants(attachment.description, sides, rate);

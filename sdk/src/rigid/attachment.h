@@ -39,6 +39,9 @@ struct Attachment {
     // State: what it pushed in the last tick, substeps added up; for reading out.
     fixed::Vec3 pushed;
 
+    // Of the tick: what it pushed in a substep of the last one.
+    fixed::Vec3 expected;
+
     // Of the substep.
     fixed::Vec3 push;
     fixed::Vec3 begin; // how far it was apart at its beginning

@@ -81,6 +81,8 @@ struct Body {
     fixed::Vec3 predicted_position;
     Quaternion start_orientation;
     Quaternion predicted_orientation;
+    fixed::Vec3 uncarried_position; // before anything that was pushed in the last substep was pushed again
+    Quaternion uncarried_orientation;
     fixed::Matrix3 rotation;       // of `orientation`
     SymmetricMatrix world_inverse; // inverse_inertia in world axes at the predicted pose
 

@@ -75,11 +75,22 @@ public:
         apply(bodies.a, a_);
         apply(bodies.b, b_);
     }
+    const Move& to_a() const { return a_; }
+    const Move& to_b() const { return b_; }
 
 private:
     Move a_;
     Move b_;
 };
+
+// In all three directions.
+void add_point(const Contact& contact, const ContactPoint& point, const ContactPush& push, Pushes& pushes) {
+    if (push.normal != 0) {
+        pushes.add(point.normal_a, point.normal_b, contact.normal, push.normal);
+        pushes.add(point.across_a[0], point.across_b[0], contact.across[0], push.across[0]);
+        pushes.add(point.across_a[1], point.across_b[1], contact.across[1], push.across[1]);
+    }
+}
 
 std::int64_t grip(std::int64_t push, std::uint32_t friction) {
     return (std::min(push, greatest_gripping_push) * std::int64_t{friction}) >> 18;
@@ -258,12 +269,41 @@ void warm_start(Contact& contact, ContactBodies bodies) {
     }
     Pushes pushes;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
-        const ContactPoint& point = contact.points[i];
-        if (point.active && point.push.normal != 0) {
-            pushes.add(point.normal_a, point.normal_b, contact.normal, point.push.normal);
-            pushes.add(point.across_a[0], point.across_b[0], contact.across[0], point.push.across[0]);
-            pushes.add(point.across_a[1], point.across_b[1], contact.across[1], point.push.across[1]);
+        if (contact.points[i].active) {
+            add_point(contact, contact.points[i], contact.points[i].push, pushes);
         }
+    }
+    pushes.apply_to(bodies);
+}
+
+void add_pushes(const Contact& contact, bool to_a, Move& move) {
+    Pushes pushes;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        if (contact.points[i].active) {
+            add_point(contact, contact.points[i], contact.points[i].push, pushes);
+        }
+    }
+    const Move& all = to_a ? pushes.to_a() : pushes.to_b();
+    move.shift = move.shift + all.shift;
+    move.half_turn = move.half_turn + all.half_turn;
+}
+
+void carry_more(Contact& contact, ContactBodies bodies, std::int32_t share) {
+    Pushes pushes;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        ContactPoint& point = contact.points[i];
+        if (!point.active || point.push.normal == 0) {
+            continue;
+        }
+        ContactPush more = point.push;
+        const auto take = [share](std::int64_t& total, std::int64_t& part) {
+            part = fixed::scale_component(share, part);
+            total += part;
+        };
+        take(point.push.normal, more.normal);
+        take(point.push.across[0], more.across[0]);
+        take(point.push.across[1], more.across[1]);
+        add_point(contact, point, more, pushes);
     }
     pushes.apply_to(bodies);
 }

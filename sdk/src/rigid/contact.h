@@ -90,6 +90,10 @@ void begin_substep(Contact& contact, const Body& a, const Body& b);
 bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach, const MotionRate& rate);
 // Once the bodies are predicted: rows, and the pushes of the substep before.
 void warm_start(Contact& contact, ContactBodies bodies);
+// What its pushes do to one of its bodies.
+void add_pushes(const Contact& contact, bool to_a, Move& move);
+// Adds a share of its pushes, 30 fraction bits, -1 .. 1.
+void carry_more(Contact& contact, ContactBodies bodies, std::int32_t share);
 void project(Contact& contact, ContactBodies bodies);
 // For events: what it pushed in this substep.
 void add_up_pushes(Contact& contact, const MotionRate& rate);

@@ -44,6 +44,9 @@ Piece piece_of_collider(const Body& body, const ColliderState& collider, const V
     return piece;
 }
 
+// Who comes more slowly than this wakes nobody by being near: a centimetre a second.
+constexpr std::int64_t gentle_speed = (std::int64_t{1} << world_fraction_bits) / 100;
+
 std::int64_t thickness(const Piece& piece) {
     if (piece.kind == LKS_SHAPE_PLANE) {
         return INT64_MAX;
@@ -341,7 +344,8 @@ private:
         take_manifold(contact, manifold, scene_.bodies[key.body_a], body_b);
     }
 
-    // Wakes a sleeping body that this one is about to touch. True: the contact is of no use (yet).
+    // Wakes a sleeping body that this one is about to touch. True: the contact is of no use (yet). What lies
+    // beside a sleeper does not wake it; if it comes to push, they are one island (wake_islands).
     bool disturb_sleep(const Manifold& manifold, const ContactKey& key) {
         Body& a = scene_.bodies[key.body_a];
         Body& b = other_body(scene_, key.other);
@@ -350,8 +354,11 @@ private:
         }
         constexpr std::int64_t touching = (std::int64_t{1} << world_fraction_bits) / 1000;
         const std::int64_t closing = per_tick(-fixed::dot(manifold.normal, b.velocity - a.velocity));
+        const bool comes = (a.is_awake() || b.is_awake()) && closing > per_tick(gentle_speed);
+        const bool carried = !a.is_dynamic() || !b.is_dynamic();
         for (std::uint32_t i = 0; i < manifold.count; ++i) {
-            if (manifold.points[i].separation <= touching + std::max<std::int64_t>(closing, 0)) {
+            if ((comes || carried) &&
+                manifold.points[i].separation <= touching + std::max<std::int64_t>(closing, 0)) {
                 wake(a.asleep != 0 ? a : b);
                 woken_ = true;
                 return true;

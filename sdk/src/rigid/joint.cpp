@@ -91,6 +91,10 @@ void forget_pushes(Joint& joint) {
 
 void begin_substep(Joint& joint, const Body& a, const Body& b) {
     joint.begin = joint_offset(joint, a, b);
+    joint.start = keeps_push(joint) ? joint.begin : Vec3{0, 0, 0};
+    if (joint.in_tree) {
+        joint.push = {0, 0, 0};
+    }
     aim_motor(joint, a, b);
     begin_limits(joint, a, b);
     begin_turn(joint, a, b);
@@ -101,11 +105,8 @@ void warm_start(Joint& joint, Body& a, Body& b) {
     warm_start_turn(joint, a, b);
     warm_start_limits(joint, a, b);
     warm_start_drive(joint, a, b);
-    if (keeps_push(joint)) {
-        joint.start = joint.begin;
-    } else {
+    if (!keeps_push(joint)) {
         joint.push = {0, 0, 0};
-        joint.start = {0, 0, 0};
     }
     if (d.kind != LKS_JOINT_DISTANCE) {
         const std::int64_t softness = joint.constants.points.softness;
@@ -113,14 +114,33 @@ void warm_start(Joint& joint, Body& a, Body& b) {
         joint.side_a = block_side(a, joint.constants.shares.a, fixed::rotate(a.rotation, d.point_a), k);
         joint.side_b = block_side(b, joint.constants.shares.b, fixed::rotate(b.rotation, d.point_b), k);
         joint.inverse = invert_block(k);
-        push_apart(joint, a, b, joint.push);
+        if (!joint.in_tree) {
+            push_apart(joint, a, b, joint.push);
+        }
     }
 }
 
-void undo_error(Joint& joint, Body& a, Body& b) {
+void carry_more(Joint& joint, Body& a, Body& b, std::int32_t share) {
+    carry_more_turn(joint, a, b, share);
+    carry_more_limits(joint, a, b, share);
+    carry_more_drive(joint, a, b, share);
+    if (keeps_push(joint) && !joint.in_tree) {
+        const Vec3 more = fixed::scaled(share, joint.push);
+        joint.push = joint.push + more;
+        clamp_vector(joint.push, greatest_push);
+        push_apart(joint, a, b, more);
+    }
+}
+
+void add_up_pushes(Joint& joint, const Body& a, const Body& b) {
+    joint.pushed = joint.pushed + joint.push;
+    joint.turned = joint.turned + joint.turn + limit_push(joint, a, b) + joint.grip + joint.drag;
+}
+
+bool undo_error(const Joint& joint, Body& a, Body& b) {
     undo_turn(joint, a, b);
-    const Vec3 limited = undo_limits(joint, a, b);
-    if (keeps_push(joint)) {
+    const bool far_off = undo_limits(joint, a, b);
+    if (keeps_push(joint) && !joint.in_tree) {
         Vec3 error = joint_offset(joint, a, b);
         clamp_vector(error, greatest_step);
         push_apart(joint, a, b, -solve(joint.inverse, error));
@@ -131,8 +151,7 @@ void undo_error(Joint& joint, Body& a, Body& b) {
             body->orientation = normalise(body->orientation);
         }
     }
-    joint.pushed = joint.pushed + joint.push;
-    joint.turned = joint.turned + joint.turn + limited + joint.grip + joint.drag;
+    return far_off;
 }
 
 void project(Joint& joint, Body& a, Body& b) {
@@ -148,7 +167,7 @@ void project(Joint& joint, Body& a, Body& b) {
     project_limits(joint, a, b);
     if (joint.description.kind == LKS_JOINT_DISTANCE) {
         project_distance(joint, a, b);
-    } else {
+    } else if (!joint.in_tree) {
         project_points(joint, a, b);
     }
 }

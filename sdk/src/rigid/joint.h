@@ -92,6 +92,9 @@ struct Joint {
     fixed::Vec3 pushed;
     fixed::Vec3 turned;
 
+    // Of the tick: its points are solved with those of its tree (rigid/articulation.h).
+    bool in_tree;
+
     // Of the substep.
     fixed::Vec3 begin;        // how far the points were apart at its beginning
     fixed::Vec3 start;        // what of it is to be kept
@@ -118,10 +121,15 @@ void forget_pushes(Joint& joint);
 void begin_substep(Joint& joint, const Body& a, const Body& b);
 // Once they are: K, and the pushes of the substep before.
 void warm_start(Joint& joint, Body& a, Body& b);
+// Adds a share of what is carried on, 30 fraction bits, -1 .. 1.
+void carry_more(Joint& joint, Body& a, Body& b, std::int32_t share);
 void project(Joint& joint, Body& a, Body& b);
 
-// Once velocities are known: what is left of the points' error, without giving speed. Adds up the pushes.
-void undo_error(Joint& joint, Body& a, Body& b);
+// Once velocities are known.
+void add_up_pushes(Joint& joint, const Body& a, const Body& b);
+// What is left of its errors, without giving speed: of turns, limits, and of points that no tree holds. True:
+// a limit was exceeded by more than half a degree.
+bool undo_error(const Joint& joint, Body& a, Body& b);
 // Its load over the last tick is more than it bears.
 bool breaks(const Joint& joint);
 

@@ -20,6 +20,13 @@ std::int64_t to_angle(std::int64_t half_turn) {
     return half_turn >> (turn_fraction_bits - world_fraction_bits - 1);
 }
 
+// As much of it as friction, or the motor, is capable of.
+Vec3 within_grip(const Joint& joint, const Vec3& turn) {
+    fixed::NormalisedVector size{};
+    const bool beyond = fixed::normalise(turn, size) && size.length > joint.constants.grip;
+    return beyond ? fixed::scale(size.direction, joint.constants.grip) : turn;
+}
+
 // Turns by what the aim is missed by, up to the greatest push.
 void drive(Joint& joint, Body& a, Body& b) {
     fixed::NormalisedVector way{};
@@ -28,13 +35,8 @@ void drive(Joint& joint, Body& a, Body& b) {
     }
     const std::int64_t wanted = TurnRow(joint, a, b, way.direction).push_for(-to_angle(way.length));
     const Vec3 before = joint.grip;
-    Vec3 total = before + fixed::scale(way.direction, wanted);
-    fixed::NormalisedVector size{};
-    if (fixed::normalise(total, size) && size.length > joint.constants.grip) {
-        total = fixed::scale(size.direction, joint.constants.grip);
-    }
-    joint.grip = total;
-    turn_apart(joint, a, b, total - before);
+    joint.grip = within_grip(joint, before + fixed::scale(way.direction, wanted));
+    turn_apart(joint, a, b, joint.grip - before);
 }
 
 // A torque against the speed of turning.
@@ -87,10 +89,15 @@ void warm_start_drive(Joint& joint, Body& a, Body& b) {
     }
     if (joint.description.motor_torque != 0) {
         const std::int32_t kept = direction_one - 2 * joint.constants.motor_share;
-        const auto part = [kept](std::int64_t c) { return fixed::scale_component(kept, c); };
-        joint.grip = {part(joint.grip.x), part(joint.grip.y), part(joint.grip.z)};
+        joint.grip = fixed::scaled(kept, joint.grip);
     }
     turn_apart(joint, a, b, joint.grip);
+}
+
+void carry_more_drive(Joint& joint, Body& a, Body& b, std::int32_t share) {
+    const Vec3 before = joint.grip;
+    joint.grip = within_grip(joint, before + fixed::scaled(share, before));
+    turn_apart(joint, a, b, joint.grip - before);
 }
 
 void project_drive(Joint& joint, Body& a, Body& b) {

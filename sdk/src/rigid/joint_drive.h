@@ -20,6 +20,7 @@ namespace lks {
 void aim_motor(Joint& joint, const Body& a, const Body& b);
 // After it.
 void warm_start_drive(Joint& joint, Body& a, Body& b);
+void carry_more_drive(Joint& joint, Body& a, Body& b, std::int32_t share);
 void project_drive(Joint& joint, Body& a, Body& b);
 
 } // namespace lks

@@ -11,6 +11,9 @@ namespace {
 using fixed::Direction;
 using fixed::Vec3;
 
+// Half a degree: World, radians.
+constexpr std::int64_t far_beyond = (std::int64_t{1} << world_fraction_bits) / 115;
+
 // How far the axis of b may swing the way it does: an ellipse with a half axis towards each of the frame's
 // two axes across.
 std::int64_t swing_limit(const JointConstants& c, const Body& a, const Direction& v) {
@@ -115,6 +118,17 @@ void hold_twist(Joint& joint, Body& a, Body& b) {
     row.apply(joint.twist_push - before);
 }
 
+void push_limits(const Joint& joint, Body& a, Body& b, std::int64_t swing_push, std::int64_t twist_push) {
+    Swing swing{};
+    if (swing_push != 0 && find_swing(joint, a, b, swing)) {
+        TurnRow(joint, a, b, swing.axis).apply(-swing_push);
+    }
+    Direction axis{};
+    if (twist_push != 0 && twist_axis(joint, a, b, axis)) {
+        TurnRow(joint, a, b, axis).apply(twist_push);
+    }
+}
+
 } // namespace
 
 void begin_limits(Joint& joint, const Body& a, const Body& b) {
@@ -131,14 +145,15 @@ void begin_limits(Joint& joint, const Body& a, const Body& b) {
 }
 
 void warm_start_limits(const Joint& joint, Body& a, Body& b) {
-    Swing swing{};
-    if (joint.swing_push != 0 && find_swing(joint, a, b, swing)) {
-        TurnRow(joint, a, b, swing.axis).apply(-joint.swing_push);
-    }
-    Direction axis{};
-    if (joint.twist_push != 0 && twist_axis(joint, a, b, axis)) {
-        TurnRow(joint, a, b, axis).apply(joint.twist_push);
-    }
+    push_limits(joint, a, b, joint.swing_push, joint.twist_push);
+}
+
+void carry_more_limits(Joint& joint, Body& a, Body& b, std::int32_t share) {
+    const std::int64_t swing = fixed::scale_component(share, joint.swing_push);
+    const std::int64_t twist = fixed::scale_component(share, joint.twist_push);
+    push_limits(joint, a, b, swing, twist);
+    joint.swing_push = std::min(joint.swing_push + swing, greatest_push);
+    joint.twist_push = std::clamp(joint.twist_push + twist, -greatest_push, greatest_push);
 }
 
 void project_limits(Joint& joint, Body& a, Body& b) {
@@ -150,21 +165,35 @@ void project_limits(Joint& joint, Body& a, Body& b) {
     }
 }
 
-Vec3 undo_limits(const Joint& joint, Body& a, Body& b) {
-    const JointConstants& c = joint.constants;
+Vec3 limit_push(const Joint& joint, const Body& a, const Body& b) {
     Vec3 pushed{0, 0, 0};
     Swing swing{};
-    if (c.swing_limited && find_swing(joint, a, b, swing)) {
+    if (joint.swing_push != 0 && find_swing(joint, a, b, swing)) {
         pushed = -fixed::scale(swing.axis, joint.swing_push);
-        TurnRow(joint, a, b, swing.axis).turn_by(std::min<std::int64_t>(swing.limit - swing.angle, 0));
+    }
+    Direction axis{};
+    if (joint.twist_push != 0 && twist_axis(joint, a, b, axis)) {
+        pushed = pushed + fixed::scale(axis, joint.twist_push);
+    }
+    return pushed;
+}
+
+bool undo_limits(const Joint& joint, Body& a, Body& b) {
+    const JointConstants& c = joint.constants;
+    std::int64_t beyond = 0;
+    Swing swing{};
+    if (c.swing_limited && find_swing(joint, a, b, swing) && swing.angle > swing.limit) {
+        beyond = swing.angle - swing.limit;
+        TurnRow(joint, a, b, swing.axis).turn_by(-beyond);
     }
     std::int64_t twist = 0;
     Direction axis{};
     if (c.twist_limited && find_twist(joint, a, b, twist) && twist_axis(joint, a, b, axis)) {
-        pushed = pushed + fixed::scale(axis, joint.twist_push);
-        TurnRow(joint, a, b, axis).turn_by(std::clamp(twist, c.twist_min, c.twist_max) - twist);
+        const std::int64_t back = std::clamp(twist, c.twist_min, c.twist_max) - twist;
+        beyond = std::max(beyond, back < 0 ? -back : back);
+        TurnRow(joint, a, b, axis).turn_by(back);
     }
-    return pushed;
+    return beyond > far_beyond;
 }
 
 } // namespace lks

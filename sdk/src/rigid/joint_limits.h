@@ -11,8 +11,11 @@ namespace lks {
 void begin_limits(Joint& joint, const Body& a, const Body& b);
 // After it.
 void warm_start_limits(const Joint& joint, Body& a, Body& b);
+void carry_more_limits(Joint& joint, Body& a, Body& b, std::int32_t share);
 void project_limits(Joint& joint, Body& a, Body& b);
-// After the velocities: what is left. Returns how they have pushed in this substep.
-fixed::Vec3 undo_limits(const Joint& joint, Body& a, Body& b);
+// How they have pushed in this substep.
+fixed::Vec3 limit_push(const Joint& joint, const Body& a, const Body& b);
+// After the velocities: what is left. True: it was more than half a degree.
+bool undo_limits(const Joint& joint, Body& a, Body& b);
 
 } // namespace lks

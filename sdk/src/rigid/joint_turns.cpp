@@ -63,6 +63,15 @@ void warm_start_turn(Joint& joint, Body& a, Body& b) {
     }
 }
 
+void carry_more_turn(Joint& joint, Body& a, Body& b, std::int32_t share) {
+    if (holds_turn(joint) && keeps_turn(joint)) {
+        const Vec3 more = fixed::scaled(share, joint.turn);
+        joint.turn = joint.turn + more;
+        clamp_vector(joint.turn, greatest_push);
+        turn_apart(joint, a, b, more);
+    }
+}
+
 void project_turn(Joint& joint, Body& a, Body& b) {
     if (!holds_turn(joint)) {
         return;

@@ -10,6 +10,7 @@ namespace lks {
 void begin_turn(Joint& joint, const Body& a, const Body& b);
 // After it.
 void warm_start_turn(Joint& joint, Body& a, Body& b);
+void carry_more_turn(Joint& joint, Body& a, Body& b, std::int32_t share);
 void project_turn(Joint& joint, Body& a, Body& b);
 // After the velocities: what is left.
 void undo_turn(const Joint& joint, Body& a, Body& b);

@@ -11,8 +11,7 @@ using fixed::Direction;
 using fixed::Vec3;
 
 constexpr std::int32_t one = direction_one;
-// Half turns of corrections have 33 fraction bits.
-constexpr int half_turn_bits = 33;
+constexpr int half_turn_bits = half_turn_fraction_bits;
 // Beyond this a lever is so long against the body that the body turns as if it were heavier.
 constexpr std::int32_t greatest_weight_shift = 24;
 
@@ -111,12 +110,12 @@ Vec3 half_turn_of(const RowSide& side, std::int64_t p, int sign) {
 }
 
 // Δθ/2 = share · Ĵ · p · 2^shift.
-void turn_by(Body& body, std::int32_t share, int shift, const Vec3& p, int sign) {
+Vec3 half_turn_of(const Body& body, std::int32_t share, int shift, const Vec3& p, int sign) {
     const Vec3 turned = multiply(body.world_inverse, p);
     const auto part = [&](std::int64_t c) {
         return shifted(sign * fixed::scale_component(share, c), shift + half_turn_bits - world_fraction_bits);
     };
-    turn_body(body, {part(turned.x), part(turned.y), part(turned.z)});
+    return {part(turned.x), part(turned.y), part(turned.z)};
 }
 
 } // namespace
@@ -226,19 +225,24 @@ void turn(Body& body, const RowSide& side, std::int64_t p, int sign) {
 }
 
 void turn(Body& body, std::int32_t share, int reach, const Vec3& p, int sign) {
-    turn_by(body, share, turning_shift(body, reach) - 1, p, sign);
+    turn_body(body, half_turn_of(body, share, turning_shift(body, reach) - 1, p, sign));
 }
 
-void push(Body& body, const BlockSide& side, const Vec3& p, int sign) {
+Move move_of(const Body& body, const BlockSide& side, const Vec3& p, int sign) {
     if (side.share == 0) {
-        return;
+        return {};
     }
     const auto part = [&](std::int64_t c) { return sign * fixed::scale_component(side.share, c); };
-    body.position = body.position + Vec3{part(p.x), part(p.y), part(p.z)};
     const Direction& r = side.lever;
     const Vec3 arm{fixed::dot_components(0, -r.z, r.y, p), fixed::dot_components(r.z, 0, -r.x, p),
                    fixed::dot_components(-r.y, r.x, 0, p)};
-    turn_by(body, side.share, side.turn_shift, arm, sign);
+    return {{part(p.x), part(p.y), part(p.z)}, half_turn_of(body, side.share, side.turn_shift, arm, sign)};
+}
+
+void push(Body& body, const BlockSide& side, const Vec3& p, int sign) {
+    if (side.share != 0) {
+        apply(body, move_of(body, side, p, sign));
+    }
 }
 
 void accelerate(Body& body, const RowSide& side, const Direction& normal, std::int64_t p, int sign) {

@@ -64,16 +64,20 @@ struct BlockSide {
 
 // Adds the body's part to K = Σ wᵢ(1 − r̂ᵢ Ĵᵢ r̂ᵢ): xx, xy, xz, yy, yz, zz, 30 fraction bits.
 BlockSide block_side(const Body& body, std::int32_t share, const fixed::Vec3& lever, std::int64_t (&k)[6]);
+// Half turns of corrections.
+inline constexpr int half_turn_fraction_bits = 33;
+
+// What one or several rows do to a body: added up, and then applied together.
+struct Move {
+    fixed::Vec3 shift{0, 0, 0};     // World
+    fixed::Vec3 half_turn{0, 0, 0}; // half_turn_fraction_bits
+};
+
 // By a push (World).
+Move move_of(const Body& body, const BlockSide& side, const fixed::Vec3& p, int sign);
 void push(Body& body, const BlockSide& side, const fixed::Vec3& p, int sign);
 // By a turning push (World) with the reach of turn_side.
 void turn(Body& body, std::int32_t share, int reach, const fixed::Vec3& p, int sign);
-
-// What several rows at once do to a body: added up, and then applied together.
-struct Move {
-    fixed::Vec3 shift{0, 0, 0};     // World
-    fixed::Vec3 half_turn{0, 0, 0}; // 33 fraction bits
-};
 
 // By a push p (World) along the row's normal, p_normal; `sign` is 1 or -1.
 void add_push(Move& move, const RowSide& side, const fixed::Vec3& p_normal, std::int64_t p, int sign);

@@ -9,7 +9,9 @@ RigidScene::RigidScene(const lks_allocator& allocator)
       joints(allocator), memories(allocator), attachment_slots(allocator), attachments(allocator),
       jointed(allocator), ticks(allocator), collider_bodies(allocator), pieces(allocator),
       piece_starts(allocator), travels(allocator), overlaps(allocator), boxed(allocator), pairs(allocator),
-      contacts(allocator), next_memories(allocator), islands(allocator), island_rests(allocator),
+      contacts(allocator), next_memories(allocator), islands(allocator), tree_roots(allocator),
+      tree_links(allocator), tree_bodies(allocator), tree_joints(allocator), articulated(allocator),
+      trees(allocator), figures(allocator), figure_parts(allocator), island_rests(allocator),
       is_coupled(allocator), coupled(allocator), object_pairs(allocator), held(allocator),
       loaded_kinds(allocator) {}
 
@@ -26,20 +28,25 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         boxed.reserve(boxes) && pairs.reserve(pair_capacity(body_count)) &&
         contacts.reserve(contact_capacity(body_count)) && memories.reserve(contact_capacity(body_count)) &&
         next_memories.reserve(contact_capacity(body_count)) && loaded_kinds.reserve(body_count) &&
-        islands.reserve(body_count) && island_rests.reserve(body_count) &&
+        islands.reserve(body_count) && figures.reserve(body_count) && tree_roots.reserve(body_count) &&
+        tree_bodies.reserve(body_count) && articulated.reserve(body_count) &&
+        reserve_figures(body_count, joint_room_, attachment_room_) && island_rests.reserve(body_count) &&
         object_pairs.reserve(object_pair_capacity(object_room_, body_count));
     body_room_ = done ? std::max(body_room_, body_count) : body_room_;
     return done;
 }
 
 bool RigidScene::reserve_joints(std::size_t count) {
-    const bool done = joint_slots.reserve(count) && joints.reserve(count) && jointed.reserve(count);
+    const bool done = joint_slots.reserve(count) && joints.reserve(count) && jointed.reserve(count) &&
+                      tree_links.reserve(2 * count) && tree_joints.reserve(count) && trees.reserve(count) &&
+                      reserve_figures(body_room_, count, attachment_room_);
     joint_room_ = done ? std::max(joint_room_, count) : joint_room_;
     return done;
 }
 
 bool RigidScene::reserve_attachments(std::size_t count) {
-    const bool done = attachment_slots.reserve(count) && attachments.reserve(count) && held.reserve(count);
+    const bool done = attachment_slots.reserve(count) && attachments.reserve(count) && held.reserve(count) &&
+                      reserve_figures(body_room_, joint_room_, count);
     attachment_room_ = done ? std::max(attachment_room_, count) : attachment_room_;
     return done;
 }
@@ -51,6 +58,13 @@ bool RigidScene::reserve_objects(std::size_t count) {
                       reserve(body_room_, collider_bodies.capacity());
     object_room_ = done ? object_room_ : before;
     return done;
+}
+
+// A contact may belong to two of them.
+bool RigidScene::reserve_figures(std::size_t body_count, std::size_t joint_count,
+                                 std::size_t attachment_count) {
+    return figure_parts.reserve(body_count + joint_count + attachment_count +
+                                2 * contact_capacity(body_count));
 }
 
 void RigidScene::forget_contacts(std::uint32_t other) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "memory/array.h"
+#include "rigid/articulation_parts.h"
 #include "rigid/attachment.h"
 #include "rigid/body.h"
 #include "rigid/contact.h"
@@ -51,7 +52,16 @@ struct RigidScene {
     Array<std::uint64_t> pairs; // body a << 32 | other, ascending
     Array<Contact> contacts;
     Array<ContactMemory> next_memories;
-    Array<std::uint32_t> islands;      // by body: towards the least index in its island
+    Array<std::uint32_t> islands; // by body: towards the least index in its island
+    // Of rigid/articulation.h.
+    Array<std::uint32_t> tree_roots;     // by body
+    Array<std::uint64_t> tree_links;     // body << 32 | joint, ascending
+    Array<std::uint32_t> tree_bodies;    // from the roots on
+    Array<ArticulatedJoint> tree_joints; // from the roots on
+    Array<ArticulatedBody> articulated;  // by body
+    Array<ArticulatedTree> trees;
+    Array<std::uint32_t> figures;      // by body: the least index in its figure (rigid/carried_pushes.h)
+    Array<std::uint64_t> figure_parts; // of awake figures, ascending
     Array<std::uint32_t> island_rests; // by body
     // Objects that go through the tick together with bodies and with each other: a flag by slot, empty where
     // there is none; their indices; and whom each may touch: object << 32 | body, ascending.
@@ -81,6 +91,9 @@ struct RigidScene {
     bool empty() const { return bodies.empty() && attachments.empty(); }
 
 private:
+    [[nodiscard]] bool reserve_figures(std::size_t body_count, std::size_t joint_count,
+                                       std::size_t attachment_count);
+
     std::size_t body_room_ = 0;
     std::size_t joint_room_ = 0;
     std::size_t attachment_room_ = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "rigid/articulation.h"
+#include "rigid/carried_pushes.h"
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"
 #include "rigid/particle_contact.h"
@@ -35,6 +37,8 @@ public:
         if (moves) {
             find_contacts(world_);
         }
+        find_figures(scene_);
+        find_articulations(scene_);
         // Those that it has woken, too.
         for (Body& body : scene_.bodies) {
             if (body.is_awake()) {
@@ -187,10 +191,8 @@ private:
         for_each_attachment([](Attachment& attachment, const AttachmentSides& sides) {
             lks::begin_substep(attachment, sides);
         });
-        for_each_joint([](Joint& joint, Body& a, Body& b) { lks::warm_start(joint, a, b); });
-        for (Contact& contact : scene_.contacts) {
-            warm_start(contact, bodies_of(contact));
-        }
+        factor_articulations(scene_);
+        carry_pushes_on();
         for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
             for (const std::uint32_t index : scene_.coupled) {
                 project_object(world_, coupled_object(index), world_.scratch[0]);
@@ -198,6 +200,7 @@ private:
             // Forward and back: a sweep in one direction only makes tall stacks sway.
             project_attachments();
             for_each_joint([](Joint& joint, Body& a, Body& b) { lks::project(joint, a, b); });
+            solve_articulations(scene_);
             for (Contact& contact : scene_.contacts) {
                 project(contact, bodies_of(contact));
             }
@@ -207,6 +210,7 @@ private:
             for (std::size_t i = scene_.joints.size(); i-- > 0;) {
                 project_joint(i);
             }
+            solve_articulations(scene_);
             project_attachments();
             collide_objects(substep);
         }
@@ -223,12 +227,33 @@ private:
         for (const Contact& contact : scene_.contacts) {
             restore_speed(contact, bodies_of(contact), least_approach_);
         }
-        for_each_joint([](Joint& joint, Body& a, Body& b) { undo_error(joint, a, b); });
+        for_each_joint([](Joint& joint, Body& a, Body& b) {
+            add_up_pushes(joint, a, b);
+            if (!joint.in_tree) {
+                undo_error(joint, a, b);
+            }
+        });
         for (const Contact& contact : scene_.contacts) {
             undo_overlap(contact, bodies_of(contact), rate_);
         }
+        undo_articulations(scene_);
         for_each_attachment(
             [](Attachment& attachment, const AttachmentSides&) { finish_substep(attachment); });
+    }
+
+    void carry_pushes_on() {
+        for (Body& body : scene_.bodies) {
+            body.uncarried_position = body.position;
+            body.uncarried_orientation = body.orientation;
+        }
+        for_each_joint([](Joint& joint, Body& a, Body& b) { lks::warm_start(joint, a, b); });
+        for (Contact& contact : scene_.contacts) {
+            warm_start(contact, bodies_of(contact));
+        }
+        solve_articulations(scene_);
+        if (scale_carried_pushes(scene_, rate_, 2 * least_approach_)) {
+            solve_articulations(scene_);
+        }
     }
 
     // An impact may cause the next one: forward and back, until nothing strikes any more.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
+#include "rigid/body_roots.h"
 
 namespace lks {
 namespace {
@@ -13,49 +14,17 @@ constexpr std::int64_t still_distance = (std::int64_t{1} << world_fraction_bits)
 // Half turns: two degrees.
 constexpr std::int64_t still_turn = turn_one / 57;
 
-// The bodies of an island point to the least index in it.
-class Islands {
-public:
-    explicit Islands(RigidScene& scene) : scene_(scene), roots_(scene.islands) {
-        roots_.clear();
-        for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-            roots_.push_reserved(i);
-        }
-        for (std::size_t i = 0; i < scene.joints.size(); ++i) {
-            if (scene.joint_slots[i].used) {
-                const JointDescription& joint = scene.joints[i].description;
-                join(joint.body_a, joint.body_b);
-            }
-        }
-        for (const ContactMemory& memory : scene.memories) {
-            if (memory.key.other < other_is_collider) {
-                join(memory.key.body_a, memory.key.other);
-            }
+// What joints and pushing contacts hold together.
+BodyRoots find_islands(RigidScene& scene) {
+    BodyRoots roots(scene, scene.islands);
+    roots.join_by_joints();
+    for (const ContactMemory& memory : scene.memories) {
+        if (memory.key.other < other_is_collider) {
+            roots.join(memory.key.body_a, memory.key.other);
         }
     }
-
-    std::uint32_t root(std::uint32_t body) {
-        while (roots_[body] != body) {
-            roots_[body] = roots_[roots_[body]];
-            body = roots_[body];
-        }
-        return body;
-    }
-
-private:
-    // Kinematic bodies hold nothing together.
-    void join(std::uint32_t a, std::uint32_t b) {
-        if (!scene_.bodies[a].is_dynamic() || !scene_.bodies[b].is_dynamic()) {
-            return;
-        }
-        const std::uint32_t p = root(a);
-        const std::uint32_t q = root(b);
-        roots_[std::max(p, q)] = std::min(p, q);
-    }
-
-    RigidScene& scene_;
-    Array<std::uint32_t>& roots_;
-};
+    return roots;
+}
 
 // Calls use(body) for each dynamic body that something kinematic and moving has to do with.
 template <typename Use>
@@ -162,7 +131,7 @@ void wake_islands(lks_world& world) {
         return;
     }
     for_each_disturbed(world, [&](std::uint32_t body) { wake(scene.bodies[body]); });
-    Islands islands(scene);
+    BodyRoots islands = find_islands(scene);
     // First the roots, then those that follow them: an awake body wakes its root.
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].is_dynamic() && scene.bodies[i].asleep == 0) {
@@ -195,7 +164,7 @@ void fall_asleep(lks_world& world) {
         return;
     }
     for_each_disturbed(world, [&](std::uint32_t body) { scene.bodies[body].rest_ticks = 0; });
-    Islands islands(scene);
+    BodyRoots islands = find_islands(scene);
     // The least rest of an island, at its root.
     Array<std::uint32_t>& least = scene.island_rests;
     least.clear();

@@ -1,0 +1,330 @@
+#include "rigid/articulation.h"
+
+#include <algorithm>
+
+#include "rigid/block.h"
+#include "rigid/body_motion.h"
+
+namespace lks {
+namespace {
+
+using fixed::Vec3;
+
+constexpr int fraction_bits = 32;
+constexpr std::int64_t one = std::int64_t{1} << fraction_bits;
+
+Vec3 multiply_32(std::int64_t a, const Vec3& v) {
+    return {lks::multiply_32(a, v.x), lks::multiply_32(a, v.y), lks::multiply_32(a, v.z)};
+}
+
+std::int64_t dot_32(const Vec3& a, const Vec3& b) {
+    return lks::multiply_32(a.x, b.x) + lks::multiply_32(a.y, b.y) + lks::multiply_32(a.z, b.z);
+}
+
+Vec3 cross_32(const Vec3& a, const Vec3& b) {
+    const auto m = lks::multiply_32;
+    return {m(a.y, b.z) - m(a.z, b.y), m(a.z, b.x) - m(a.x, b.z), m(a.x, b.y) - m(a.y, b.x)};
+}
+
+Vec3 symmetric(const std::int64_t (&m)[6], const Vec3& v) {
+    return {dot_32({m[0], m[1], m[2]}, v), dot_32({m[1], m[3], m[4]}, v), dot_32({m[2], m[4], m[5]}, v)};
+}
+
+std::int64_t component(const Vec3& v, int i) {
+    return i == 0 ? v.x : i == 1 ? v.y : v.z;
+}
+
+// Without what its joints carry.
+ArticulatedInverse own_inverse(const Body& body, std::int64_t share) {
+    ArticulatedInverse inverse{};
+    inverse.shift[0] = inverse.shift[3] = inverse.shift[5] = share;
+    const SymmetricMatrix& m = body.world_inverse;
+    const std::int32_t entries[6] = {m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
+    for (int i = 0; i < 6; ++i) {
+        const int up = body.inverse_shift + fraction_bits - 30;
+        const std::int64_t entry =
+            up >= 0 ? entries[i] * (std::int64_t{1} << up) : entries[i] >> std::min(-up, 31);
+        inverse.turn[i] = lks::multiply_32(share, entry);
+    }
+    return inverse;
+}
+
+// What a push along each axis at the lever does: its shift and its turn.
+void push_columns(const ArticulatedInverse& w, const Vec3& lever, Vec3 (&shift)[3], Vec3 (&turn)[3]) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 arm = axis == 0   ? Vec3{0, lever.z, -lever.y}
+                         : axis == 1 ? Vec3{-lever.z, 0, lever.x}
+                                     : Vec3{lever.y, -lever.x, 0};
+        shift[axis] = Vec3{w.shift[axis == 0 ? 0 : axis],
+                           w.shift[axis == 0   ? 1
+                                   : axis == 1 ? 3
+                                               : 4],
+                           w.shift[axis == 0   ? 2
+                                   : axis == 1 ? 4
+                                               : 5]} +
+                      Vec3{dot_32({w.mixed[0], w.mixed[1], w.mixed[2]}, arm),
+                           dot_32({w.mixed[3], w.mixed[4], w.mixed[5]}, arm),
+                           dot_32({w.mixed[6], w.mixed[7], w.mixed[8]}, arm)};
+        turn[axis] =
+            Vec3{w.mixed[3 * axis], w.mixed[3 * axis + 1], w.mixed[3 * axis + 2]} + symmetric(w.turn, arm);
+    }
+}
+
+// How the point moves: xx, xy, xz, yy, yz, zz are added to.
+void add_point_motion(const Vec3& lever, const Vec3 (&shift)[3], const Vec3 (&turn)[3],
+                      std::int64_t (&d)[6]) {
+    int entry = 0;
+    for (int i = 0; i < 3; ++i) {
+        const Vec3 moved = shift[i] + cross_32(turn[i], lever);
+        for (int j = i; j < 3; ++j) {
+            d[entry++] += component(moved, j);
+        }
+    }
+}
+
+// Of a pivot with 32 fraction bits. What is too small to be one lets nothing be pushed.
+Inverse invert_pivot(std::int64_t pivot) {
+    constexpr std::int64_t least = 1 << 4;
+    if (pivot < least) {
+        return {0, 0};
+    }
+    Inverse inverse = lks::invert(pivot);
+    inverse.shift -= fraction_bits - 30;
+    return inverse;
+}
+
+// D⁻¹ by D = L·diag·Lᵀ.
+SymmetricInverse invert(const std::int64_t (&d)[6]) {
+    const auto m = lks::multiply_32;
+    const Inverse first = invert_pivot(d[0]);
+    const std::int64_t l21 = divide(d[1], first);
+    const std::int64_t l31 = divide(d[2], first);
+    const Inverse second = invert_pivot(d[3] - m(l21, d[1]));
+    const std::int64_t below = d[4] - m(l21, d[2]);
+    const std::int64_t l32 = divide(below, second);
+    const Inverse third = invert_pivot(d[5] - m(l31, d[2]) - m(l32, below));
+    // L⁻¹ has 1, −l21, l21·l32 − l31 and −l32.
+    const std::int64_t corner = m(l21, l32) - l31;
+    const std::int64_t zz = divide(one, third);
+    const std::int64_t yy = divide(one, second);
+    const std::int64_t yz = -m(l32, zz);
+    const std::int64_t xz = m(corner, zz);
+    const std::int64_t xy = -m(l21, yy) - m(corner, m(l32, zz));
+    return {{divide(one, first) + m(l21, m(l21, yy)) + m(corner, xz), xy, xz, yy - m(l32, yz), yz, zz}};
+}
+
+// W −= U·D⁻¹·Uᵀ.
+void fold_in(ArticulatedInverse& w, const ArticulatedJoint& joint) {
+    Vec3 rows[6];
+    Vec3 solved[6];
+    for (int i = 0; i < 3; ++i) {
+        rows[i] = {component(joint.column_shift[0], i), component(joint.column_shift[1], i),
+                   component(joint.column_shift[2], i)};
+        rows[3 + i] = {component(joint.column_turn[0], i), component(joint.column_turn[1], i),
+                       component(joint.column_turn[2], i)};
+    }
+    for (int i = 0; i < 6; ++i) {
+        solved[i] = symmetric(joint.inverse.entries, rows[i]);
+    }
+    int entry = 0;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = i; j < 3; ++j) {
+            w.shift[entry] -= dot_32(solved[i], rows[j]);
+            w.turn[entry++] -= dot_32(solved[3 + i], rows[3 + j]);
+        }
+        for (int j = 0; j < 3; ++j) {
+            w.mixed[3 * i + j] -= dot_32(solved[i], rows[3 + j]);
+        }
+    }
+}
+
+Vec3 lever_in_units(const Body& body, const Vec3& point) {
+    const Vec3 lever = fixed::rotate(body.rotation, point);
+    const int down = world_fraction_bits - fraction_bits + body.scale;
+    const auto part = [down](std::int64_t c) {
+        return down >= 0 ? c >> down : c * (std::int64_t{1} << -down);
+    };
+    return {part(lever.x), part(lever.y), part(lever.z)};
+}
+
+const Vec3& point_of(const Joint& joint, bool on_a) {
+    return on_a ? joint.description.point_a : joint.description.point_b;
+}
+
+void factor_joint(RigidScene& scene, ArticulatedJoint& part) {
+    const Joint& joint = scene.joints[part.joint];
+    ArticulatedBody& parent = scene.articulated[part.parent];
+    std::int64_t d[6] = {};
+    part.pair_share = parent.share;
+    if (part.child_moves) {
+        const ArticulatedBody& child = scene.articulated[part.child];
+        part.pair_share = std::max(part.pair_share, child.share);
+        part.child_lever = lever_in_units(scene.bodies[part.child], point_of(joint, part.child_is_a));
+        Vec3 shift[3];
+        Vec3 turn[3];
+        push_columns(child.inverse, part.child_lever, shift, turn);
+        add_point_motion(part.child_lever, shift, turn, d);
+    }
+    part.parent_lever = lever_in_units(scene.bodies[part.parent], point_of(joint, !part.child_is_a));
+    push_columns(parent.inverse, part.parent_lever, part.column_shift, part.column_turn);
+    add_point_motion(part.parent_lever, part.column_shift, part.column_turn, d);
+    part.inverse = invert(d);
+    fold_in(parent.inverse, part);
+}
+
+// How the body's point at the lever moves with it.
+Vec3 point_motion(const ArticulatedBody& body, const Vec3& lever) {
+    return body.shift + cross_32(body.turn, lever);
+}
+
+void add_force(ArticulatedBody& body, const Vec3& lever, const Vec3& push) {
+    body.force = body.force + push;
+    body.torque = body.torque + cross_32(lever, push);
+}
+
+// What the pushes of its joints do to it, all at once: one by one they may be large, and of the heavy end of
+// a chain only a small rest remains.
+Move move_of(const Body& body, const ArticulatedBody& part) {
+    const Vec3 turn = multiply(body.world_inverse, multiply_32(part.share, part.torque));
+    const int up = body.inverse_shift - body.scale - 1 + half_turn_fraction_bits - world_fraction_bits;
+    const auto shifted = [up](std::int64_t c) {
+        return up >= 0 ? fixed::wrapping_multiply(c, std::int64_t{1} << up)
+                       : fixed::shift_right_rounded(c, -up);
+    };
+    return {multiply_32(part.share, part.force), {shifted(turn.x), shifted(turn.y), shifted(turn.z)}};
+}
+
+// The bodies and joints of one tree.
+class Tree {
+public:
+    Tree(RigidScene& scene, const ArticulatedTree& range) : scene_(scene), range_(range) {}
+
+    void factor() {
+        for_each_body(
+            [](Body& body, ArticulatedBody& part) { part.inverse = own_inverse(body, part.share); });
+        for_each_joint_back([this](ArticulatedJoint& part) { factor_joint(scene_, part); });
+    }
+
+    // Brings the points of all joints together, `error` being how far b's is from a's, and calls
+    // use(joint, push) with the push from a to b in the joint's own unit.
+    template <typename Error, typename Use>
+    void solve(const Error& error, const Use& use) {
+        for_each_body([](Body&, ArticulatedBody& part) {
+            part.shift = part.turn = part.force = part.torque = {0, 0, 0};
+        });
+        for_each_joint_back([&](ArticulatedJoint& part) { fold_error(part, error); });
+        for_each_joint([&](ArticulatedJoint& part, Joint& joint) {
+            const Vec3 push = push_of(part);
+            use(joint, multiply_32(part.pair_share, part.child_is_a ? -push : push));
+        });
+        for_each_body([](Body& body, ArticulatedBody& part) { apply(body, move_of(body, part)); });
+    }
+
+    // A limit that turns one bone back on its joint takes the points along: some rounds bring both right.
+    void undo() {
+        constexpr int most_rounds = 4;
+        bool far_off = true;
+        for (int round = 0; round < most_rounds && far_off; ++round) {
+            far_off = false;
+            for_each_joint([&](const ArticulatedJoint&, const Joint& joint) {
+                far_off = undo_error(joint, body_a(joint), body_b(joint)) || far_off;
+            });
+            solve([](const Joint& joint, const Body& a, const Body& b) { return joint_offset(joint, a, b); },
+                  [](const Joint&, const Vec3&) {});
+        }
+        for_each_body(
+            [](Body& body, const ArticulatedBody&) { body.orientation = normalise(body.orientation); });
+    }
+
+private:
+    template <typename Use>
+    void for_each_body(const Use& use) {
+        for (std::uint32_t i = range_.first_body; i < range_.body_end; ++i) {
+            const std::uint32_t index = scene_.tree_bodies[i];
+            use(scene_.bodies[index], scene_.articulated[index]);
+        }
+    }
+    // From the root on.
+    template <typename Use>
+    void for_each_joint(const Use& use) {
+        for (std::uint32_t i = range_.first_joint; i < range_.joint_end; ++i) {
+            ArticulatedJoint& part = scene_.tree_joints[i];
+            use(part, scene_.joints[part.joint]);
+        }
+    }
+    template <typename Use>
+    void for_each_joint_back(const Use& use) {
+        for (std::uint32_t i = range_.joint_end; i-- > range_.first_joint;) {
+            use(scene_.tree_joints[i]);
+        }
+    }
+
+    Body& body_a(const Joint& joint) { return scene_.bodies[joint.description.body_a]; }
+    Body& body_b(const Joint& joint) { return scene_.bodies[joint.description.body_b]; }
+
+    template <typename Error>
+    void fold_error(ArticulatedJoint& part, const Error& error) {
+        const Joint& joint = scene_.joints[part.joint];
+        Vec3 apart = error(joint, body_a(joint), body_b(joint));
+        clamp_vector(apart, greatest_step);
+        ArticulatedBody& parent = scene_.articulated[part.parent];
+        Vec3 left = (part.child_is_a ? -apart : apart) - point_motion(parent, part.parent_lever);
+        if (part.child_moves) {
+            left = left + point_motion(scene_.articulated[part.child], part.child_lever);
+        }
+        part.push = -symmetric(part.inverse.entries, left);
+        clamp_vector(part.push, greatest_push);
+        const std::int64_t pushes[3] = {part.push.x, part.push.y, part.push.z};
+        for (int axis = 0; axis < 3; ++axis) {
+            parent.shift = parent.shift - multiply_32(pushes[axis], part.column_shift[axis]);
+            parent.turn = parent.turn - multiply_32(pushes[axis], part.column_turn[axis]);
+        }
+    }
+
+    // With what the joints towards the root push the parent.
+    Vec3 push_of(const ArticulatedJoint& part) {
+        ArticulatedBody& parent = scene_.articulated[part.parent];
+        const auto along = [&](int axis) {
+            return dot_32(part.column_shift[axis], parent.force) +
+                   dot_32(part.column_turn[axis], parent.torque);
+        };
+        Vec3 push = part.push + symmetric(part.inverse.entries, {along(0), along(1), along(2)});
+        clamp_vector(push, greatest_push);
+        add_force(parent, part.parent_lever, -push);
+        if (part.child_moves) {
+            add_force(scene_.articulated[part.child], part.child_lever, push);
+        }
+        return push;
+    }
+
+    RigidScene& scene_;
+    const ArticulatedTree& range_;
+};
+
+} // namespace
+
+void factor_articulations(RigidScene& scene) {
+    for (const ArticulatedTree& tree : scene.trees) {
+        Tree(scene, tree).factor();
+    }
+}
+
+void solve_articulations(RigidScene& scene) {
+    for (const ArticulatedTree& tree : scene.trees) {
+        Tree(scene, tree)
+            .solve([](const Joint& joint, const Body& a,
+                      const Body& b) { return joint_offset(joint, a, b) - joint.start; },
+                   [](Joint& joint, const Vec3& push) {
+                       joint.push = joint.push + push;
+                       clamp_vector(joint.push, greatest_push);
+                   });
+    }
+}
+
+void undo_articulations(RigidScene& scene) {
+    for (const ArticulatedTree& tree : scene.trees) {
+        Tree(scene, tree).undo();
+    }
+}
+
+} // namespace lks

@@ -1,0 +1,32 @@
+// Joints' points solved all at once, where joints form trees: bodies on ball joints, hinges and fixed joints
+// without compliance.
+//
+// Sweeps bring the points of one joint together and part those of the next; what is to move a long limb, or a
+// heavy end, takes many of them. In a tree the linear system of all points is solved exactly in one pass from
+// the leaves to the root and one back, as in articulated-body dynamics (Featherstone 1983; in the form for
+// constraints of Baraff 1996): at each joint the bodies beyond it are folded into the inverse mass, six by
+// six, of the body that carries them:
+//
+//     D = L_p W_p L_pᵀ + L_c W_c L_cᵀ     W_p ← W_p − (W_p L_pᵀ) D⁻¹ (W_p L_pᵀ)ᵀ
+//
+// with L the motion of the joint's point by that of the body. Joints that close a loop, soft ones and
+// distances are left to the sweeps.
+//
+// Numbers: inverse masses are shares of the greatest one in the tree, levers and turns in each body's own
+// unit of length (rigid/inertia.h), 32 fraction bits; pushes and errors are lengths in World.
+#pragma once
+
+#include "rigid/rigid_scene.h"
+
+namespace lks {
+
+// Which joints are solved so in this tick, from the leaves on; marks them.
+void find_articulations(RigidScene& scene);
+// Once the bodies are predicted: the factors of all trees.
+void factor_articulations(RigidScene& scene);
+// Brings back to zero how much the points have parted in this substep, with speed.
+void solve_articulations(RigidScene& scene);
+// Once velocities are known: all errors of their joints (undo_error, and the points), without giving speed.
+void undo_articulations(RigidScene& scene);
+
+} // namespace lks

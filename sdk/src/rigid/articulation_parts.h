@@ -1,0 +1,61 @@
+// What the solver of rigid/articulation.h keeps of bodies and joints.
+#pragma once
+
+#include "fixed/int128.h"
+#include "fixed/vector.h"
+
+namespace lks {
+
+// a·b of 32 fraction bits and any, in the other's format; wraps.
+constexpr std::int64_t multiply_32(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>((fixed::multiply_signed(a, b) >> 32).lo);
+}
+
+// Of a symmetric 6 × 6 matrix: shift by shift, shift by turn (row by row), turn by turn.
+struct ArticulatedInverse {
+    std::int64_t shift[6]; // xx, xy, xz, yy, yz, zz
+    std::int64_t mixed[9];
+    std::int64_t turn[6];
+};
+
+struct ArticulatedBody {
+    std::int64_t share; // of the tree's greatest inverse mass
+    bool attached;
+    ArticulatedInverse inverse;
+    // What the joints beyond it have done to it, and what those towards the root push it.
+    fixed::Vec3 shift;
+    fixed::Vec3 turn;
+    fixed::Vec3 force;
+    fixed::Vec3 torque;
+};
+
+// Of a 3 × 3 matrix: xx, xy, xz, yy, yz, zz.
+struct SymmetricInverse {
+    std::int64_t entries[6];
+};
+
+struct ArticulatedJoint {
+    std::uint32_t joint;
+    std::uint32_t child;
+    std::uint32_t parent;
+    bool child_is_a;
+    bool child_moves;
+    std::int64_t pair_share; // the pair's greater inverse mass in the tree's greatest
+    fixed::Vec3 child_lever;
+    fixed::Vec3 parent_lever;
+    // W_p L_pᵀ: what a push along each axis does to the parent.
+    fixed::Vec3 column_shift[3];
+    fixed::Vec3 column_turn[3];
+    SymmetricInverse inverse; // D⁻¹
+    fixed::Vec3 push;         // World, in the tree's unit; on the child
+};
+
+// Which of the scene's tree_bodies and tree_joints are one tree's.
+struct ArticulatedTree {
+    std::uint32_t first_body;
+    std::uint32_t body_end;
+    std::uint32_t first_joint;
+    std::uint32_t joint_end;
+};
+
+} // namespace lks

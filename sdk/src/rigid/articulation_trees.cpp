@@ -1,0 +1,190 @@
+#include <algorithm>
+
+#include "collide/saturation.h"
+#include "rigid/articulation.h"
+#include "rigid/body_roots.h"
+
+namespace lks {
+namespace {
+
+using fixed::Vec3;
+
+// Bodies thinner than this, and joints further out, would leave 64 bits.
+constexpr std::int32_t greatest_inverse_shift = 14;
+constexpr std::int64_t farthest_lever = 8;
+
+// 32 fraction bits.
+std::int64_t share_of(const InverseMass& part, const InverseMass& whole) {
+    if (part.mantissa == 0) {
+        return 0;
+    }
+    const int down = whole.exponent - part.exponent;
+    if (down > 62) {
+        return 0;
+    }
+    const std::uint64_t quotient = (std::uint64_t{part.mantissa} << 32) / whole.mantissa;
+    return static_cast<std::int64_t>(std::min<std::uint64_t>(quotient >> down, std::uint64_t{1} << 32));
+}
+
+bool is_lighter(const Body& a, const Body& b) {
+    const InverseMass& p = a.inverse_mass;
+    const InverseMass& q = b.inverse_mass;
+    return p.exponent != q.exponent ? p.exponent > q.exponent : p.mantissa > q.mantissa;
+}
+
+bool is_near(const Body& body, const Vec3& point) {
+    const std::int64_t unit = body.scale >= 0 ? std::int64_t{1} << (world_fraction_bits + body.scale)
+                                              : (std::int64_t{1} << world_fraction_bits) >> -body.scale;
+    return !body.is_awake() || (body.inverse_shift <= greatest_inverse_shift &&
+                                sum_of_magnitudes(point) <= farthest_lever * unit);
+}
+
+class Trees {
+public:
+    explicit Trees(RigidScene& scene) : scene_(scene), roots_(scene, scene.tree_roots) {}
+
+    void find() {
+        static_cast<void>(scene_.articulated.resize(scene_.bodies.size())); // within its room
+        scene_.tree_links.clear();
+        scene_.tree_bodies.clear();
+        scene_.tree_joints.clear();
+        scene_.trees.clear();
+        for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
+            scene_.joints[i].in_tree = false;
+            if (scene_.joint_slots[i].used && may_be_solved(scene_.joints[i])) {
+                choose(i);
+            }
+        }
+        mark_attached();
+        std::sort(scene_.tree_links.begin(), scene_.tree_links.end());
+        std::size_t end = 0;
+        for (std::size_t i = 0; i < scene_.tree_links.size(); i = end) {
+            const std::uint32_t body = body_of(scene_.tree_links[i]);
+            end = after(i);
+            if (roots_.root(body) == body) {
+                walk(body);
+            }
+        }
+    }
+
+private:
+    static std::uint32_t body_of(std::uint64_t link) { return static_cast<std::uint32_t>(link >> 32); }
+    static std::uint32_t joint_of(std::uint64_t link) { return static_cast<std::uint32_t>(link); }
+
+    bool may_be_solved(const Joint& joint) const {
+        const JointDescription& d = joint.description;
+        const Body& a = scene_.bodies[d.body_a];
+        const Body& b = scene_.bodies[d.body_b];
+        return d.kind != LKS_JOINT_DISTANCE && joint.constants.points.softness == 0 &&
+               joint.constants.angular_softness == 0 && (a.is_awake() || b.is_awake()) &&
+               is_near(a, d.point_a) && is_near(b, d.point_b);
+    }
+
+    // Unless it closes a loop.
+    void choose(std::uint32_t index) {
+        const JointDescription& d = scene_.joints[index].description;
+        const bool a_moves = scene_.bodies[d.body_a].is_awake();
+        const bool b_moves = scene_.bodies[d.body_b].is_awake();
+        if (a_moves && b_moves && roots_.root(d.body_a) == roots_.root(d.body_b)) {
+            return;
+        }
+        roots_.join(d.body_a, d.body_b);
+        if (a_moves) {
+            scene_.tree_links.push_reserved(std::uint64_t{d.body_a} << 32 | index);
+        }
+        if (b_moves) {
+            scene_.tree_links.push_reserved(std::uint64_t{d.body_b} << 32 | index);
+        }
+    }
+
+    // The end of the links of the body at `i`.
+    std::size_t after(std::size_t i) const {
+        const std::uint32_t body = body_of(scene_.tree_links[i]);
+        while (i < scene_.tree_links.size() && body_of(scene_.tree_links[i]) == body) {
+            ++i;
+        }
+        return i;
+    }
+
+    void mark_attached() {
+        for (ArticulatedBody& body : scene_.articulated) {
+            body.attached = false;
+        }
+        for (std::size_t i = 0; i < scene_.attachments.size(); ++i) {
+            const AttachmentDescription& d = scene_.attachments[i].description;
+            if (scene_.attachment_slots[i].used && d.kind == LKS_ATTACHMENT_TO_BODY) {
+                scene_.articulated[d.other].attached = true;
+            }
+        }
+    }
+
+    // Bodies and joints from the root on. What does not move is a leaf. Trees with attachments are left to
+    // the sweeps: an attachment begins from nothing and would find the bodies in free fall.
+    void walk(std::uint32_t root) {
+        const auto begin = static_cast<std::uint32_t>(scene_.tree_bodies.size());
+        const auto begin_joints = static_cast<std::uint32_t>(scene_.tree_joints.size());
+        bool attached = false;
+        scene_.tree_bodies.push_reserved(root);
+        std::uint32_t lightest = root;
+        for (std::size_t next = begin; next < scene_.tree_bodies.size(); ++next) {
+            const std::uint32_t parent = scene_.tree_bodies[next];
+            if (is_lighter(scene_.bodies[parent], scene_.bodies[lightest])) {
+                lightest = parent;
+            }
+            attached = attached || scene_.articulated[parent].attached;
+            add_joints(parent);
+        }
+        if (attached) {
+            drop_from(begin, begin_joints);
+            return;
+        }
+        for (std::size_t i = begin; i < scene_.tree_bodies.size(); ++i) {
+            const std::uint32_t body = scene_.tree_bodies[i];
+            scene_.articulated[body].share =
+                share_of(scene_.bodies[body].inverse_mass, scene_.bodies[lightest].inverse_mass);
+        }
+        scene_.trees.push_reserved({begin, static_cast<std::uint32_t>(scene_.tree_bodies.size()),
+                                    begin_joints, static_cast<std::uint32_t>(scene_.tree_joints.size())});
+    }
+
+    void drop_from(std::size_t body, std::size_t joint) {
+        for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
+            scene_.joints[scene_.tree_joints[i].joint].in_tree = false;
+        }
+        static_cast<void>(scene_.tree_bodies.resize(body)); // never grows
+        static_cast<void>(scene_.tree_joints.resize(joint));
+    }
+
+    void add_joints(std::uint32_t parent) {
+        const Array<std::uint64_t>& links = scene_.tree_links;
+        const auto first = std::lower_bound(links.begin(), links.end(), std::uint64_t{parent} << 32);
+        for (auto link = first; link != links.end() && body_of(*link) == parent; ++link) {
+            Joint& joint = scene_.joints[joint_of(*link)];
+            if (joint.in_tree) {
+                continue;
+            }
+            joint.in_tree = true;
+            ArticulatedJoint part{};
+            part.joint = joint_of(*link);
+            part.parent = parent;
+            part.child_is_a = joint.description.body_b == parent;
+            part.child = part.child_is_a ? joint.description.body_a : joint.description.body_b;
+            part.child_moves = scene_.bodies[part.child].is_awake();
+            scene_.tree_joints.push_reserved(part);
+            if (part.child_moves) {
+                scene_.tree_bodies.push_reserved(part.child);
+            }
+        }
+    }
+
+    RigidScene& scene_;
+    BodyRoots roots_;
+};
+
+} // namespace
+
+void find_articulations(RigidScene& scene) {
+    Trees(scene).find();
+}
+
+} // namespace lks

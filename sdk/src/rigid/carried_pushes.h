@@ -1,0 +1,28 @@
+// How much of what was pushed in the last substep is carried into the next one.
+//
+// Sweeps spread an impact slowly through a figure, that is the bodies that joints hold together: every row
+// knows the masses of its own two bodies only. While a figure is being stopped its pushes grow from substep
+// to substep, and when it has stopped they would throw it back like a spring; where they turn with the bodies
+// they may even feed on themselves. So, when everything has been pushed as in the last substep, the pushes of
+// each figure — of its joints, limits, motors and contacts — are multiplied by the factor that leaves the
+// least kinetic energy:
+//
+//     G = Σ m·Δ·v    Q = Σ m·Δ·Δ    factor = 1 − G/Q, from 0 to 2
+//
+// with Δ what these pushes do to each body, and v how it moves now (both in six dimensions, m the mass
+// matrix). This is the coarse level of a two-level method whose fine level are the sweeps. Where next to
+// nothing is to be gained the pushes stay as they are, so that what rests stays as it is, to the bit.
+#pragma once
+
+#include "rigid/rigid_scene.h"
+#include "solver/step_rate.h"
+
+namespace lks {
+
+// Who belongs to which figure in this tick.
+void find_figures(RigidScene& scene);
+// Once joints and contacts are warm-started. `least_speed`: World m/s, what is slower is left alone. False:
+// nothing was changed.
+bool scale_carried_pushes(RigidScene& scene, const MotionRate& rate, std::int64_t least_speed);
+
+} // namespace lks
