@@ -24,6 +24,7 @@ constexpr Section sections[] = {
     {snapshots_name, "save, load and hash of a 256² cloth beside memcpy"},
     {overhead_name, "a tick with next to nothing to do"},
     {ragdolls_name, "100 humanoids of 12 bodies fall on a plane, beside Bullet"},
+    {pile_name, "30 humanoids of 15 bodies fall into a pit, beside Bullet"},
     {growth_name, "1,000 to 1,000,000 constraints"},
     {accuracy_name, "residual stretch against cost, substeps × iterations"},
     {instructions_name, "instructions a projection, by valgrind"},
@@ -89,6 +90,8 @@ bool measure(const std::string& part, const BenchOptions& options, Results& resu
         measure_overhead(rounds, results);
     } else if (part == ragdolls_name) {
         measure_ragdolls(rounds, results);
+    } else if (part == pile_name) {
+        measure_pile(rounds, results);
     } else if (part == growth_name) {
         measure_growth(rounds, results);
     } else if (part == accuracy_name) {

@@ -38,8 +38,12 @@ public:
         world_.setGravity(btVector3(0, btScalar(-9.81), 0));
         add(std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)), 0,
             btTransform::getIdentity());
-        for (const lks_vec3& place : crowd.places) {
-            add_humanoid(crowd, place);
+        for (const CrowdWall& wall : crowd.walls) {
+            add(std::make_unique<btBoxShape>(vector(wall.half_extents)), 0,
+                btTransform(btQuaternion::getIdentity(), vector(wall.position)));
+        }
+        for (const lks_transform& place : crowd.places) {
+            add_humanoid(crowd, transform(place));
         }
     }
     ~BulletCrowd() override {
@@ -76,6 +80,21 @@ public:
         return errors;
     }
 
+    double energy() const override {
+        double sum = 0;
+        for (const std::unique_ptr<btRigidBody>& body : bodies_) {
+            if (body->getMass() > 0) {
+                const btVector3 spin =
+                    body->getWorldTransform().getBasis().transpose() * body->getAngularVelocity();
+                const btVector3 momentum = spin / body->getInvInertiaDiagLocal();
+                sum += body->getMass() * (body->getLinearVelocity().length2() / 2 +
+                                          btScalar(9.81) * body->getWorldTransform().getOrigin().y()) +
+                       spin.dot(momentum) / 2;
+            }
+        }
+        return sum;
+    }
+
 private:
     btRigidBody* add(std::unique_ptr<btCollisionShape> shape, btScalar mass, const btTransform& place) {
         btVector3 inertia(0, 0, 0);
@@ -100,24 +119,21 @@ private:
                                                 btScalar(2 * lks_fixed_to_double(shape.half_length)));
     }
 
-    void add_humanoid(const Crowd& crowd, const lks_vec3& place) {
-        btRigidBody* bodies[crowd_bones];
-        for (std::uint32_t i = 0; i < crowd_bones; ++i) {
+    void add_humanoid(const Crowd& crowd, const btTransform& place) {
+        btRigidBody* bodies[LKS_HUMANOID_BONES];
+        for (std::uint32_t i = 0; i < crowd.bone_count; ++i) {
             const lks_bone& bone = crowd.bones[i];
-            btTransform at = transform(bone.body.transform);
-            at.setOrigin(at.getOrigin() + vector(place));
-            bodies[i] = add(shape_of(*bone.body.shapes), btScalar(lks_fixed_to_double(bone.body.mass)), at);
+            bodies[i] = add(shape_of(*bone.body.shapes), btScalar(lks_fixed_to_double(bone.body.mass)),
+                            place * transform(bone.body.transform));
             if (i > 0) {
-                add_joint(bone, vector(place), *bodies[bone.parent], *bodies[i]);
+                add_joint(bone, place, *bodies[bone.parent], *bodies[i]);
             }
         }
     }
 
-    void add_joint(const lks_bone& bone, const btVector3& place, btRigidBody& parent, btRigidBody& child) {
+    void add_joint(const lks_bone& bone, const btTransform& place, btRigidBody& parent, btRigidBody& child) {
         const bool hinge = bone.joint_kind == LKS_JOINT_HINGE;
-        btTransform frame = transform(bone.joint_frame);
-        frame.setOrigin(frame.getOrigin() + place);
-        frame = with_axis(frame, hinge);
+        const btTransform frame = with_axis(place * transform(bone.joint_frame), hinge);
         const btTransform in_parent = parent.getWorldTransform().inverse() * frame;
         const btTransform in_child = child.getWorldTransform().inverse() * frame;
         if (hinge) {

@@ -1,35 +1,77 @@
 #include "crowd.h"
 
 namespace lks_bench {
+namespace {
 
-Crowd::Crowd() {
+lks_vec3 millimetres(int x, int y, int z) {
+    return {LKS_FIXED_RATIO(x, 1000), LKS_FIXED_RATIO(y, 1000), LKS_FIXED_RATIO(z, 1000)};
+}
+
+bool is_small(std::uint32_t bone) {
+    return bone == LKS_HUMANOID_HEAD || bone == LKS_HUMANOID_HAND_LEFT || bone == LKS_HUMANOID_HAND_RIGHT;
+}
+
+} // namespace
+
+Crowd::Crowd(bool with_head_and_hands) {
     lks_bone all[LKS_HUMANOID_BONES];
     lks_body_shape all_shapes[LKS_HUMANOID_BONES];
     lks_humanoid(all, all_shapes);
     std::uint32_t renamed[LKS_HUMANOID_BONES] = {};
-    std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < LKS_HUMANOID_BONES; ++i) {
-        if (i == LKS_HUMANOID_HEAD || i == LKS_HUMANOID_HAND_LEFT || i == LKS_HUMANOID_HAND_RIGHT) {
+        if (!with_head_and_hands && is_small(i)) {
             continue;
         }
-        renamed[i] = count;
-        shapes[count] = all_shapes[i];
-        bones[count] = all[i];
-        bones[count].body.shapes = &shapes[count];
-        bones[count].body.never_sleeps = 1;
-        bones[count].friction = 0;
-        if (bones[count].parent != LKS_NO_PARENT) {
-            bones[count].parent = renamed[bones[count].parent];
+        renamed[i] = bone_count;
+        shapes[bone_count] = all_shapes[i];
+        lks_bone& bone = bones[bone_count];
+        bone = all[i];
+        bone.body.shapes = &shapes[bone_count];
+        bone.body.never_sleeps = 1;
+        bone.friction = 0;
+        if (bone.parent != LKS_NO_PARENT) {
+            bone.parent = renamed[bone.parent];
         }
-        ++count;
+        ++bone_count;
     }
+}
+
+CrowdBlock::CrowdBlock() : Crowd(false) {
     for (int layer = 0; layer < 4; ++layer) {
         for (int row = 0; row < 5; ++row) {
             for (int column = 0; column < 5; ++column) {
-                places.push_back({LKS_FIXED_RATIO(9 * column + layer, 10),
-                                  LKS_FIXED_RATIO(5 + 19 * layer, 10), LKS_FIXED_RATIO(6 * row + layer, 10)});
+                lks_transform place = lks_transform_identity();
+                place.position =
+                    millimetres(900 * column + 100 * layer, 500 + 1900 * layer, 600 * row + 100 * layer);
+                places.push_back(place);
             }
         }
+    }
+}
+
+CrowdPile::CrowdPile() : Crowd(true) {
+    constexpr int columns = 5;
+    constexpr int layers = 6;
+    for (int i = 0; i < columns * layers; ++i) {
+        const int column = i % columns;
+        const int layer = i / columns;
+        const bool across = layer % 2 == 1;
+        const int beside = 560 * (column - columns / 2) + 40 * layer - 100;
+        const int along = -900 + 30 * column;
+        lks_transform place = lks_transform_identity();
+        place.position =
+            millimetres(across ? along : beside, 900 + 1150 * layer + 90 * column, across ? beside : along);
+        // Face down, head first along z, or along x: a third of a turn about (1, 1, 1).
+        if (across) {
+            lks_rotation_from_axis_angle(1, 1, 1, 120, &place.rotation);
+        } else {
+            lks_rotation_from_axis_angle(1, 0, 0, 90, &place.rotation);
+        }
+        places.push_back(place);
+    }
+    for (const int side : {-1, 1}) {
+        walls.push_back({millimetres(0, 450, 1900 * side), millimetres(2100, 450, 200)});
+        walls.push_back({millimetres(1900 * side, 450, 0), millimetres(200, 450, 1700)});
     }
 }
 

@@ -1,25 +1,43 @@
-// A block of humanoids in the air, as bones that any engine can be given.
+// Humanoids in the air and what they fall on, as bones and boxes that any engine can be given.
 #pragma once
 
 #include <lockstitch/lockstitch.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace lks_bench {
 
-// The humanoid of lockstitch/ragdoll.h without head and hands: 12 bones, 11 joints.
-inline constexpr std::uint32_t crowd_bones = 12;
+struct CrowdWall {
+    lks_vec3 position;
+    lks_vec3 half_extents;
+};
 
+// Nobody sleeps, joints have no friction; the ground is the plane y = 0.
 struct Crowd {
-    Crowd();
     Crowd(const Crowd&) = delete;
     Crowd& operator=(const Crowd&) = delete;
 
+    std::uint32_t bone_count = 0;
     lks_bone bones[LKS_HUMANOID_BONES];
     lks_body_shape shapes[LKS_HUMANOID_BONES];
-    std::vector<lks_vec3> places; // of the humanoids' frames: 5 × 5 × 4
+    std::vector<lks_transform> places; // of the humanoids' frames
+    std::vector<CrowdWall> walls;
+
+protected:
+    explicit Crowd(bool with_head_and_hands);
+};
+
+// 100 of 12 bones (without head and hands), 5 × 5 × 4.
+struct CrowdBlock : Crowd {
+    CrowdBlock();
+};
+
+// 30 of 15 bones, lying above a walled pit, as in the scene ragdoll_pile.
+struct CrowdPile : Crowd {
+    CrowdPile();
 };
 
 // An engine with the crowd in it.
@@ -29,6 +47,8 @@ public:
     virtual void tick() = 0;
     // How far each joint's points are apart, metres.
     virtual std::vector<double> joint_errors() const = 0;
+    // Kinetic and potential, joules.
+    virtual double energy() const = 0;
 };
 
 } // namespace lks_bench

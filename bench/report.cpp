@@ -167,6 +167,8 @@ std::string markdown(const Results& results, const std::vector<Plot>& plots) {
     text +=
         table(results, "100 humanoids of 12 bodies that fall in a block: ms a tick, and joint errors in mm",
               by_variant, by_measured, [](const Result& r) { return r.workload == "ragdolls_100"; });
+    text += table(results, "30 humanoids of 15 bodies that fall into a pit: the same", by_variant,
+                  by_measured, [](const Result& r) { return r.workload == "ragdolls_pile"; });
     text += table(results, "Residual stretch (root mean square), substeps × iterations", by_measured,
                   by_variant, [](const Result& r) { return r.unit == "relative stretch"; });
     text += table(results, "Milliseconds a tick of the same", by_measured, by_variant,

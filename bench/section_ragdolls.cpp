@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "bullet_crowd.h"
+#include "measure.h"
 #include "sections.h"
 
 namespace lks_bench {
@@ -19,15 +20,28 @@ public:
         ground.shape = LKS_SHAPE_PLANE;
         lks_collider_id collider{};
         lks_world_add_collider(world_, &ground, &collider);
+        for (const CrowdWall& wall : crowd.walls) {
+            lks_collider_def def = lks_default_collider_def();
+            def.shape = LKS_SHAPE_BOX;
+            def.half_extents = wall.half_extents;
+            def.transform.position = wall.position;
+            lks_world_add_collider(world_, &def, &collider);
+        }
         lks_ragdoll_def ragdoll = lks_default_ragdoll_def();
         ragdoll.bones = crowd.bones;
-        ragdoll.bone_count = crowd_bones;
-        for (const lks_vec3& place : crowd.places) {
-            ragdoll.transform.position = place;
-            lks_body_id bodies[crowd_bones];
-            lks_joint_id joints[crowd_bones - 1];
+        ragdoll.bone_count = crowd.bone_count;
+        for (const lks_transform& place : crowd.places) {
+            ragdoll.transform = place;
+            lks_body_id bodies[LKS_HUMANOID_BONES];
+            lks_joint_id joints[LKS_HUMANOID_BONES - 1];
             lks_world_add_ragdoll(world_, &ragdoll, bodies, joints);
-            joints_.insert(joints_.end(), joints, joints + crowd_bones - 1);
+            bodies_.insert(bodies_.end(), bodies, bodies + crowd.bone_count);
+            joints_.insert(joints_.end(), joints, joints + crowd.bone_count - 1);
+        }
+        for (const lks_body_id body : bodies_) {
+            lks_fixed mass = 0;
+            lks_body_mass(world_, body, &mass);
+            masses_.push_back(lks_fixed_to_double(mass));
         }
     }
     ~OurCrowd() override { lks_world_destroy(world_); }
@@ -43,57 +57,123 @@ public:
         return errors;
     }
 
+    double energy() const override {
+        lks_fixed kinetic = 0;
+        lks_world_kinetic_energy(world_, &kinetic);
+        double sum = lks_fixed_to_double(kinetic);
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            lks_transform transform;
+            lks_body_transform(world_, bodies_[i], &transform);
+            sum += masses_[i] * 9.81 * lks_fixed_to_double(transform.position.y);
+        }
+        return sum;
+    }
+    lks_world* world() const { return world_; }
+
 private:
     lks_world* world_ = nullptr;
+    std::vector<lks_body_id> bodies_;
     std::vector<lks_joint_id> joints_;
+    std::vector<double> masses_;
 };
 
+// Of one fall.
 struct Run {
     std::string name;
     std::unique_ptr<CrowdWorld> world;
     double milliseconds = 0;
+    double slowest = 0;
     double sum = 0;
     std::size_t count = 0;
     double worst = 0;
+    double least_energy = 0;
+    double gained = 0;
+
+    void tick() {
+        const auto start = std::chrono::steady_clock::now();
+        world->tick();
+        const double taken =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        milliseconds += taken;
+        slowest = std::max(slowest, taken);
+        const std::vector<double> errors = world->joint_errors();
+        sum = std::accumulate(errors.begin(), errors.end(), sum);
+        count += errors.size();
+        worst = std::max(worst, *std::max_element(errors.begin(), errors.end()));
+        const double energy = world->energy();
+        gained = std::max(gained, energy - least_energy);
+        least_energy = std::min(least_energy, energy);
+    }
 };
 
-} // namespace
+void measure_snapshots_of(const char* name, lks_world* world, int rounds, Results& results) {
+    std::size_t size = 0;
+    lks_world_save_size(world, &size);
+    std::vector<std::uint64_t> image(size / 8 + 1);
+    std::size_t written = 0;
+    lks_world_save(world, image.data(), size, &written);
+    volatile std::uint64_t sink = 0;
+    const std::vector<Measurement> measured =
+        measure_in_turns({{"save", [&] { lks_world_save(world, image.data(), size, &written); }},
+                          {"load", [&] { lks_world_load(world, image.data(), size); }},
+                          {"hash", [&] { sink = lks_world_hash(world); }}},
+                         rounds);
+    results.push_back({name, "snapshot, bytes", "8 substeps", static_cast<double>(size), ""});
+    for (const Measurement& m : measured) {
+        results.push_back({name, "snapshot, " + m.name, "8 substeps", m.nanoseconds / 1e6, "ms"});
+    }
+}
 
-void measure_ragdolls(int rounds, Results& results) {
-    const Crowd crowd;
-    // A round is a hundredth of the fall, so that a quick look is quick.
-    const int ticks = std::min(300, 3 * rounds);
+void measure_fall(const char* name, const Crowd& crowd, int rounds, Results& results) {
+    // All of it, but where a quick look is asked for.
+    constexpr int enough_rounds = 21;
+    const int ticks = rounds < enough_rounds ? 3 * rounds : 300;
     std::vector<Run> runs;
-    runs.push_back({"8 substeps", std::make_unique<OurCrowd>(crowd, 8)});
-    runs.push_back({"4 substeps", std::make_unique<OurCrowd>(crowd, 4)});
+    lks_world* first = nullptr;
+    for (const std::uint32_t substeps : {8u, 4u, 2u, 1u}) {
+        auto world = std::make_unique<OurCrowd>(crowd, substeps);
+        first = first == nullptr ? world->world() : first;
+        runs.push_back(
+            {std::to_string(substeps) + (substeps == 1 ? " substep" : " substeps"), std::move(world)});
+    }
     for (const int steps : {1, 4}) {
         if (std::unique_ptr<CrowdWorld> bullet = make_bullet_crowd(crowd, steps)) {
             runs.push_back(
                 {"Bullet, " + std::to_string(steps) + (steps == 1 ? " step" : " steps"), std::move(bullet)});
         }
     }
+    for (Run& run : runs) {
+        run.least_energy = run.world->energy();
+    }
     // All take turns, tick by tick.
     for (int tick = 0; tick < ticks; ++tick) {
         for (Run& run : runs) {
-            const auto start = std::chrono::steady_clock::now();
-            run.world->tick();
-            run.milliseconds +=
-                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-            const std::vector<double> errors = run.world->joint_errors();
-            run.sum = std::accumulate(errors.begin(), errors.end(), run.sum);
-            run.count += errors.size();
-            run.worst = std::max(run.worst, *std::max_element(errors.begin(), errors.end()));
+            run.tick();
         }
     }
+    results.push_back({name, "ticks", "", static_cast<double>(ticks), ""});
     for (const Run& run : runs) {
-        results.push_back({ragdolls_name, "whole tick", run.name, run.milliseconds / ticks, "ms",
+        results.push_back({name, "whole tick", run.name, run.milliseconds / ticks, "ms",
                            run.milliseconds / runs.front().milliseconds});
     }
     for (const Run& run : runs) {
-        results.push_back({ragdolls_name, "joint error, mean", run.name,
-                           1000 * run.sum / static_cast<double>(run.count), "mm"});
-        results.push_back({ragdolls_name, "joint error, worst", run.name, 1000 * run.worst, "mm"});
+        results.push_back({name, "slowest tick", run.name, run.slowest, "ms"});
+        results.push_back(
+            {name, "joint error, mean", run.name, 1000 * run.sum / static_cast<double>(run.count), "mm"});
+        results.push_back({name, "joint error, worst", run.name, 1000 * run.worst, "mm"});
+        results.push_back({name, "energy gained", run.name, run.gained, "J"});
     }
+    measure_snapshots_of(name, first, rounds, results);
+}
+
+} // namespace
+
+void measure_ragdolls(int rounds, Results& results) {
+    measure_fall(ragdolls_name, CrowdBlock(), rounds, results);
+}
+
+void measure_pile(int rounds, Results& results) {
+    measure_fall(pile_name, CrowdPile(), rounds, results);
 }
 
 } // namespace lks_bench

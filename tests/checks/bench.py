@@ -41,7 +41,11 @@ for measured in "projection", "tick":
         value(cloth, measured, variant)
 value(cloth, "in runs", "")
 value(measure("overhead"), "tick", "empty world")
-value(measure("ragdolls_100"), "whole tick", "8 substeps")
+for fall in "ragdolls_100", "ragdolls_pile":
+    results = measure(fall)
+    value(results, "ticks", "")
+    for measured in "whole tick", "slowest tick", "snapshot, save", "snapshot, load":
+        value(results, measured, "8 substeps")
 
 refused = run(program, "bench", "clot_64", expected=2)
 if "'clot_64'" not in refused.stderr:
