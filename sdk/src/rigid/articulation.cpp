@@ -13,17 +13,21 @@ using fixed::Vec3;
 constexpr int fraction_bits = 32;
 constexpr std::int64_t one = std::int64_t{1} << fraction_bits;
 
+// What an image made up may be anything: sums wrap.
+constexpr auto plus = fixed::wrapping_add;
+constexpr auto minus = fixed::wrapping_subtract;
+
 Vec3 multiply_32(std::int64_t a, const Vec3& v) {
     return {lks::multiply_32(a, v.x), lks::multiply_32(a, v.y), lks::multiply_32(a, v.z)};
 }
 
 std::int64_t dot_32(const Vec3& a, const Vec3& b) {
-    return lks::multiply_32(a.x, b.x) + lks::multiply_32(a.y, b.y) + lks::multiply_32(a.z, b.z);
+    return plus(plus(lks::multiply_32(a.x, b.x), lks::multiply_32(a.y, b.y)), lks::multiply_32(a.z, b.z));
 }
 
 Vec3 cross_32(const Vec3& a, const Vec3& b) {
     const auto m = lks::multiply_32;
-    return {m(a.y, b.z) - m(a.z, b.y), m(a.z, b.x) - m(a.x, b.z), m(a.x, b.y) - m(a.y, b.x)};
+    return Vec3{m(a.y, b.z), m(a.z, b.x), m(a.x, b.y)} - Vec3{m(a.z, b.y), m(a.x, b.z), m(a.y, b.x)};
 }
 
 Vec3 symmetric(const std::int64_t (&m)[6], const Vec3& v) {
@@ -77,7 +81,8 @@ void add_point_motion(const Vec3& lever, const Vec3 (&shift)[3], const Vec3 (&tu
     for (int i = 0; i < 3; ++i) {
         const Vec3 moved = shift[i] + cross_32(turn[i], lever);
         for (int j = i; j < 3; ++j) {
-            d[entry++] += component(moved, j);
+            d[entry] = plus(d[entry], component(moved, j));
+            ++entry;
         }
     }
 }
@@ -99,18 +104,19 @@ SymmetricInverse invert(const std::int64_t (&d)[6]) {
     const Inverse first = invert_pivot(d[0]);
     const std::int64_t l21 = divide(d[1], first);
     const std::int64_t l31 = divide(d[2], first);
-    const Inverse second = invert_pivot(d[3] - m(l21, d[1]));
-    const std::int64_t below = d[4] - m(l21, d[2]);
+    const Inverse second = invert_pivot(minus(d[3], m(l21, d[1])));
+    const std::int64_t below = minus(d[4], m(l21, d[2]));
     const std::int64_t l32 = divide(below, second);
-    const Inverse third = invert_pivot(d[5] - m(l31, d[2]) - m(l32, below));
+    const Inverse third = invert_pivot(minus(minus(d[5], m(l31, d[2])), m(l32, below)));
     // L⁻¹ has 1, −l21, l21·l32 − l31 and −l32.
-    const std::int64_t corner = m(l21, l32) - l31;
+    const std::int64_t corner = minus(m(l21, l32), l31);
     const std::int64_t zz = divide(one, third);
     const std::int64_t yy = divide(one, second);
-    const std::int64_t yz = -m(l32, zz);
+    const std::int64_t yz = minus(0, m(l32, zz));
     const std::int64_t xz = m(corner, zz);
-    const std::int64_t xy = -m(l21, yy) - m(corner, m(l32, zz));
-    return {{divide(one, first) + m(l21, m(l21, yy)) + m(corner, xz), xy, xz, yy - m(l32, yz), yz, zz}};
+    const std::int64_t xy = minus(minus(0, m(l21, yy)), m(corner, m(l32, zz)));
+    const std::int64_t xx = plus(plus(divide(one, first), m(l21, m(l21, yy))), m(corner, xz));
+    return {{xx, xy, xz, minus(yy, m(l32, yz)), yz, zz}};
 }
 
 // W −= U·D⁻¹·Uᵀ.
@@ -129,11 +135,12 @@ void fold_in(ArticulatedInverse& w, const ArticulatedJoint& joint) {
     int entry = 0;
     for (int i = 0; i < 3; ++i) {
         for (int j = i; j < 3; ++j) {
-            w.shift[entry] -= dot_32(solved[i], rows[j]);
-            w.turn[entry++] -= dot_32(solved[3 + i], rows[3 + j]);
+            w.shift[entry] = minus(w.shift[entry], dot_32(solved[i], rows[j]));
+            w.turn[entry] = minus(w.turn[entry], dot_32(solved[3 + i], rows[3 + j]));
+            ++entry;
         }
         for (int j = 0; j < 3; ++j) {
-            w.mixed[3 * i + j] -= dot_32(solved[i], rows[3 + j]);
+            w.mixed[3 * i + j] = minus(w.mixed[3 * i + j], dot_32(solved[i], rows[3 + j]));
         }
     }
 }

@@ -137,7 +137,7 @@ std::int64_t divide(std::int64_t value, const Inverse& inverse) {
     const std::int64_t high = (value >> 32) * static_cast<std::int64_t>(inverse.mantissa);
     const std::int64_t low = (value & 0xffffffff) * static_cast<std::int64_t>(inverse.mantissa);
     // value · mantissa = high · 2^32 + low; first by 2^-24, which keeps what matters within 64 bits.
-    const std::int64_t scaled = high * 256 + (low >> 24);
+    const std::int64_t scaled = fixed::wrapping_add(fixed::wrapping_multiply(high, 256), low >> 24);
     return shifted(scaled, 24 - inverse.shift);
 }
 
