@@ -1,0 +1,92 @@
+#include "reference/rigid_comparison.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "reference/rigid_xpbd.h"
+#include "support/bodies.h"
+
+namespace reference {
+namespace {
+
+lks_world_def world_def(const Settings& settings) {
+    lks_world_def def = support::world_def(static_cast<std::uint32_t>(settings.tick_rate_hz),
+                                           static_cast<std::uint32_t>(settings.substeps),
+                                           static_cast<std::uint32_t>(settings.iterations));
+    def.gravity = support::fixed(settings.gravity.x, settings.gravity.y, settings.gravity.z);
+    return def;
+}
+
+Rotation rotation_of(const lks_rotation& q) {
+    const auto part = [](std::int32_t c) { return static_cast<double>(c) / LKS_ROTATION_ONE; };
+    return {part(q.x), part(q.y), part(q.z), part(q.w)};
+}
+
+// The angle between two rotations.
+double angle_between(const Rotation& a, const Rotation& b) {
+    const Quaternion<double> d = quaternion_of<double>(a).conjugate() * quaternion_of<double>(b);
+    return 2 * std::atan2(d.vector().length(), std::abs(d.w));
+}
+
+// Also where it is no number.
+void raise(double& greatest, double value) {
+    if (!(value <= greatest)) {
+        greatest = value;
+    }
+}
+
+void compare(RigidDistance& distance, const RigidSolver<double>& expected, std::size_t body,
+             const support::Vector& position, const Rotation& orientation) {
+    raise(distance.metres, (position - expected.position(body)).length());
+    raise(distance.radians, angle_between(orientation, expected.orientation(body)));
+}
+
+} // namespace
+
+RigidScene::RigidScene(const Settings& settings) : settings_(settings), world_(world_def(settings)) {}
+
+std::size_t RigidScene::add(const lks_body_shape& shape, lks_body_def def) {
+    def.never_sleeps = 1;
+    def.filter.mask = 0;
+    ids_.push_back(support::add_body(world_, shape, def.transform.position, def));
+    model_.bodies.push_back(rigid_body(def, shape, support::mass_of(world_, ids_.back())));
+    return ids_.size() - 1;
+}
+
+std::size_t RigidScene::add_anchor(const lks_vec3& position) {
+    lks_body_def def = lks_default_body_def();
+    def.kind = LKS_BODY_KINEMATIC;
+    def.transform.position = position;
+    return add(support::ball_shape(0.05), def);
+}
+
+void RigidScene::join(lks_joint_def def, std::size_t a, std::size_t b) {
+    support::add_joint(world_, def, ids_[a], ids_[b]);
+    model_.joints.push_back(rigid_joint(def, a, b));
+}
+
+std::vector<RigidDeviation> RigidScene::run(const std::vector<int>& ticks) {
+    RigidSolver<double> expected(model_, settings_);
+    RigidSolver<float> single(model_, settings_);
+    std::vector<RigidDeviation> deviations;
+    RigidDeviation worst;
+    int tick = 0;
+    for (const int end : ticks) {
+        for (; tick < end; ++tick) {
+            world_.step();
+            expected.tick();
+            single.tick();
+            for (std::size_t i = 0; i < ids_.size(); ++i) {
+                const support::BodyState state = support::state_of(world_, ids_[i]);
+                compare(worst.fixed_point, expected, i, state.position, rotation_of(state.rotation));
+                compare(worst.single, expected, i, single.position(i), single.orientation(i));
+            }
+        }
+        deviations.push_back(worst);
+    }
+    REQUIRE(world_.counters().speed_clamps == 0);
+    return deviations;
+}
+
+} // namespace reference

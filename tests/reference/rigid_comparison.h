@@ -1,0 +1,44 @@
+// The SDK, the double-precision twin of its rigid solver and the float32 one run the same scene; how far do
+// they get from each other?
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "reference/rigid_model.h"
+#include "reference/xpbd.h"
+#include "support/handles.h"
+
+namespace reference {
+
+// From the double-precision twin, over all bodies and ticks.
+struct RigidDistance {
+    double metres = 0;  // of a centre of mass
+    double radians = 0; // between orientations
+};
+
+struct RigidDeviation {
+    RigidDistance fixed_point;
+    RigidDistance single;
+};
+
+class RigidScene {
+public:
+    explicit RigidScene(const Settings& settings);
+
+    // One shape with the body's own axes; bodies never touch.
+    std::size_t add(const lks_body_shape& shape, lks_body_def def);
+    std::size_t add_anchor(const lks_vec3& position);
+    void join(lks_joint_def def, std::size_t a, std::size_t b);
+
+    // The greatest until each of these ticks, in ascending order. Once a scene.
+    std::vector<RigidDeviation> run(const std::vector<int>& ticks);
+
+private:
+    Settings settings_;
+    support::World world_;
+    std::vector<lks_body_id> ids_;
+    RigidModel model_;
+};
+
+} // namespace reference

@@ -1,0 +1,62 @@
+#include "reference/rigid_model.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+namespace reference {
+namespace {
+
+using support::Vector;
+
+Rotation rotation_of(const lks_rotation& q) {
+    const double x = q.x, y = q.y, z = q.z, w = q.w;
+    const double length = std::sqrt(x * x + y * y + z * z + w * w);
+    return {x / length, y / length, z / length, w / length};
+}
+
+// Of one kilogram.
+Vector inertia_of(const lks_body_shape& shape) {
+    const double r = support::metres(shape.radius);
+    const double ball = 2 * r * r / 5;
+    if (shape.shape == LKS_SHAPE_SPHERE) {
+        return {ball, ball, ball};
+    }
+    if (shape.shape == LKS_SHAPE_CAPSULE) {
+        const double h = support::metres(shape.half_length);
+        const double cylinder = 3 * h / (3 * h + 2 * r); // its share of the mass
+        const double ends = 1 - cylinder;
+        const double across = cylinder * (r * r / 4 + h * h / 3) + ends * (ball + h * h + 3 * h * r / 4);
+        return {across, cylinder * r * r / 2 + ends * ball, across};
+    }
+    const Vector e = support::metres(shape.half_extents);
+    return {(e.y * e.y + e.z * e.z) / 3, (e.z * e.z + e.x * e.x) / 3, (e.x * e.x + e.y * e.y) / 3};
+}
+
+} // namespace
+
+RigidBody rigid_body(const lks_body_def& def, const lks_body_shape& shape, double mass) {
+    REQUIRE(support::same(shape.transform.position, lks_vec3{}));
+    RigidBody body;
+    body.position = support::metres(def.transform.position);
+    body.orientation = rotation_of(def.transform.rotation);
+    if (def.kind == LKS_BODY_DYNAMIC) {
+        body.mass = mass;
+        body.inertia = inertia_of(shape) * mass;
+        body.velocity = support::metres(def.velocity);
+        body.spin = support::metres(def.angular_velocity);
+    }
+    return body;
+}
+
+RigidJoint rigid_joint(const lks_joint_def& def, std::size_t a, std::size_t b) {
+    return {def.kind,
+            a,
+            b,
+            support::metres(def.frame_a.position),
+            support::metres(def.frame_b.position),
+            rotation_of(def.frame_a.rotation),
+            rotation_of(def.frame_b.rotation)};
+}
+
+} // namespace reference

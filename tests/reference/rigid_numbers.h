@@ -1,0 +1,94 @@
+// Vectors, matrices and quaternions of the rigid reference solver, in any number type.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/rigid_model.h"
+#include "reference/xpbd.h"
+
+namespace reference {
+
+template <typename Scalar>
+Vector3<Scalar> cross(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <typename Scalar>
+Vector3<Scalar> products(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+// The greatest component.
+template <typename Scalar>
+Scalar greatest(const Vector3<Scalar>& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+template <typename Scalar>
+struct Matrix {
+    using Vec = Vector3<Scalar>;
+
+    Vec rows[3];
+
+    Vec operator*(const Vec& v) const { return {rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)}; }
+    Vec column(int i) const {
+        const auto part = [i](const Vec& v) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
+        return {part(rows[0]), part(rows[1]), part(rows[2])};
+    }
+    // By the transposed.
+    Vec back(const Vec& v) const { return rows[0] * v.x + rows[1] * v.y + rows[2] * v.z; }
+    // R·diag·Rᵀ.
+    Matrix around(const Vec& diagonal) const {
+        Matrix out;
+        for (int i = 0; i < 3; ++i) {
+            out.rows[i] = *this * products(diagonal, rows[i]);
+        }
+        return out;
+    }
+};
+
+template <typename Scalar>
+struct Quaternion {
+    using Vec = Vector3<Scalar>;
+
+    Scalar x = 0, y = 0, z = 0, w = 1;
+
+    bool operator==(const Quaternion&) const = default;
+    Vec vector() const { return {x, y, z}; }
+    Quaternion conjugate() const { return {-x, -y, -z, w}; }
+    Quaternion operator*(const Quaternion& b) const {
+        const Vec v = b.vector() * w + vector() * b.w + cross(vector(), b.vector());
+        return {v.x, v.y, v.z, w * b.w - vector().dot(b.vector())};
+    }
+    Quaternion normalised() const {
+        const Scalar f = 1 / std::sqrt(x * x + y * y + z * z + w * w);
+        return {x * f, y * f, z * f, w * f};
+    }
+    // q + τ⊗q, not normalised.
+    Quaternion moved(const Vec& half_turn) const {
+        const Quaternion d = Quaternion{half_turn.x, half_turn.y, half_turn.z, 0} * *this;
+        return {x + d.x, y + d.y, z + d.z, w + d.w};
+    }
+    // Of a unit quaternion; else the matrix of these components.
+    Matrix<Scalar> matrix() const {
+        return {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (z * x + w * y)},
+                 {2 * (x * y + w * z), 1 - 2 * (z * z + x * x), 2 * (y * z - w * x)},
+                 {2 * (z * x - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
+    }
+};
+
+template <typename Scalar>
+Quaternion<Scalar> quaternion_of(const Rotation& q) {
+    return {static_cast<Scalar>(q.x), static_cast<Scalar>(q.y), static_cast<Scalar>(q.z),
+            static_cast<Scalar>(q.w)};
+}
+
+// axis·tan(angle/2) from one to the other: the inverse of Cayley's map.
+template <typename Scalar>
+Vector3<Scalar> half_turn_between(const Quaternion<Scalar>& from, const Quaternion<Scalar>& to) {
+    const Quaternion<Scalar> d = to * from.conjugate();
+    return d.vector() * (1 / d.w);
+}
+
+} // namespace reference
