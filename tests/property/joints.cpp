@@ -136,6 +136,48 @@ TEST_CASE("a fixed joint makes two bodies one") {
     CHECK(std::abs(state_of(world, beam).position.y) < 5e-3);
 }
 
+TEST_CASE("what flies on a hinge or a fixed joint gains no energy, and its momentum stays") {
+    for (const lks_joint_kind kind : {LKS_JOINT_HINGE, LKS_JOINT_FIXED, LKS_JOINT_BALL}) {
+        for (const double mass : {1.0, 30.0}) {
+            lks_world_def world_definition = world_def(60, 8);
+            world_definition.gravity = {};
+            World world(world_definition);
+            lks_body_def def = lks_default_body_def();
+            def.never_sleeps = 1;
+            def.mass = fixed(1);
+            def.angular_velocity = fixed(0, 0, 2);
+            const lks_body_id a = add_body(world, capsule_shape(0.1, 0.2), fixed(0, 3, 0), def);
+            def.mass = fixed(mass);
+            def.velocity = fixed(-1.4, 0, 0);
+            def.angular_velocity = fixed(0.6, 1, 2);
+            const lks_body_id b = add_body(world, capsule_shape(0.1, 0.3), fixed(0, 3.7, 0), def);
+            lks_joint_def joint = lks_default_joint_def();
+            joint.kind = kind;
+            joint.frame_a.position = fixed(0, 0.3, 0);
+            joint.frame_b.position = fixed(0, -0.4, 0);
+            add_joint(world, joint, a, b);
+            const auto velocity = [&] {
+                return (state_of(world, a).velocity + state_of(world, b).velocity * mass) * (1 / (1 + mass));
+            };
+            world.step(2); // what it is given does not fit the joint
+            const double energy = energy_of(world);
+            const Vector before = velocity();
+            double most = energy;
+            for (int tick = 0; tick < 600; ++tick) {
+                world.step();
+                most = std::max(most, energy_of(world));
+            }
+            const double last = energy_of(world);
+            const double drift = (velocity() - before).length();
+            INFO("kind " << kind << ", 1:" << mass << ": gained " << most / energy - 1 << ", lost "
+                         << 1 - last / energy << " of its energy, drifts by " << drift << " m/s");
+            CHECK(most < 1.01 * energy);
+            CHECK(last > 0.9 * energy);
+            CHECK(drift < 1e-6);
+        }
+    }
+}
+
 TEST_CASE("a distance joint is a rope, a rod or a strut") {
     World world(world_def(60, 20));
     const lks_body_id anchor = add_anchor(world, {});

@@ -2,7 +2,7 @@
 //
 // The same substeps in the same order: the implicit midpoint rule for spins, Cayley's map, the points of all
 // joints by one linear solve with the velocities that follow, what hinges and fixed joints don't let turn by
-// a row each, carried pushes, and errors undone without speed. What differs:
+// a block each, carried pushes, and errors undone without speed. What differs:
 //   - the points' system is one dense matrix, where the SDK eliminates it along the tree;
 //   - pushes are in kg·m, turns in radians: no shares, no units of length, no clamps;
 //   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing.
@@ -102,6 +102,7 @@ private:
         // Of the substep.
         Vec start, turn_start;
         Vec lever_a, lever_b; // at the predicted pose
+        SymmetricSystem<Scalar> turning;
     };
 
     void substep() {
@@ -221,18 +222,37 @@ private:
         return {};
     }
 
-    // One row about the error's own axis: the push that turns it back.
-    Vec turn_back(const Joint& joint, const Vec& error) {
-        const Scalar angle = error.length();
-        if (!(angle > 0)) {
-            return {};
+    Vec hinge_axis(const Joint& joint) const {
+        return bodies_[joint.a].rotation * joint.frame_a.matrix().column(1);
+    }
+
+    // What turning pushes do, in all directions. Hinges have a number of its own along their axis.
+    void factor_turning(Joint& joint) {
+        const Vec axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        const Vec u = hinge_axis(joint);
+        const auto across = [&](const Vec& v) {
+            return joint.kind == LKS_JOINT_HINGE ? v - u * u.dot(v) : v;
+        };
+        const auto turned = [&](const Vec& push) {
+            return bodies_[joint.a].world_inverse * push + bodies_[joint.b].world_inverse * push;
+        };
+        const Scalar along = joint.kind == LKS_JOINT_HINGE ? greatest(turned({1, 1, 1})) : Scalar(0);
+        std::vector<Scalar> matrix(9);
+        for (std::size_t row = 0; row < 3; ++row) {
+            for (std::size_t column = 0; column <= row; ++column) {
+                matrix[3 * row + column] = across(axes[row]).dot(turned(across(axes[column]))) +
+                                           along * u.dot(axes[row]) * u.dot(axes[column]);
+            }
         }
-        const Vec axis = error * (1 / angle);
-        const Scalar weight =
-            axis.dot(bodies_[joint.a].world_inverse * axis) + axis.dot(bodies_[joint.b].world_inverse * axis);
-        const Vec push = axis * (-angle / weight);
-        turn_apart(joint, push);
-        return push;
+        joint.turning.factor(3, std::move(matrix));
+    }
+
+    // The push that turns it back.
+    Vec turn_back(const Joint& joint, const Vec& error) {
+        std::vector<Scalar> push{-error.x, -error.y, -error.z};
+        joint.turning.solve(push);
+        turn_apart(joint, {push[0], push[1], push[2]});
+        return {push[0], push[1], push[2]};
     }
 
     void project_turn(Joint& joint) {
@@ -307,10 +327,16 @@ private:
             body.uncarried_position = body.position;
             body.uncarried_orientation = body.orientation;
         }
-        for (const Joint& joint : joints_) {
-            if (joint.kind != LKS_JOINT_BALL) {
-                turn_apart(joint, joint.turn);
+        for (Joint& joint : joints_) {
+            if (joint.kind == LKS_JOINT_BALL) {
+                continue;
             }
+            factor_turning(joint);
+            if (joint.kind == LKS_JOINT_HINGE) {
+                const Vec u = hinge_axis(joint);
+                joint.turn = joint.turn - u * u.dot(joint.turn);
+            }
+            turn_apart(joint, joint.turn);
         }
         solve_points(true);
         const Scalar share = share_to_add();

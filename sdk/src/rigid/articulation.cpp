@@ -21,6 +21,12 @@ Vec3 multiply_32(std::int64_t a, const Vec3& v) {
     return {lks::multiply_32(a, v.x), lks::multiply_32(a, v.y), lks::multiply_32(a, v.z)};
 }
 
+// To the nearest, so that bodies keep their momentum.
+Vec3 rounded_share(std::int64_t share, const Vec3& v) {
+    const auto part = [share](std::int64_t c) { return fixed::multiply_shift(share, c, fraction_bits); };
+    return {part(v.x), part(v.y), part(v.z)};
+}
+
 std::int64_t dot_32(const Vec3& a, const Vec3& b) {
     return plus(plus(lks::multiply_32(a.x, b.x), lks::multiply_32(a.y, b.y)), lks::multiply_32(a.z, b.z));
 }
@@ -192,13 +198,13 @@ void add_force(ArticulatedBody& body, const Vec3& lever, const Vec3& push) {
 // What the pushes of its joints do to it, all at once: one by one they may be large, and of the heavy end of
 // a chain only a small rest remains.
 Move move_of(const Body& body, const ArticulatedBody& part) {
-    const Vec3 turn = multiply(body.world_inverse, multiply_32(part.share, part.torque));
+    const Vec3 turn = multiply(body.world_inverse, rounded_share(part.share, part.torque));
     const int up = body.inverse_shift - body.scale - 1 + half_turn_fraction_bits - world_fraction_bits;
     const auto shifted = [up](std::int64_t c) {
         return up >= 0 ? fixed::wrapping_multiply(c, std::int64_t{1} << up)
                        : fixed::shift_right_rounded(c, -up);
     };
-    return {multiply_32(part.share, part.force), {shifted(turn.x), shifted(turn.y), shifted(turn.z)}};
+    return {rounded_share(part.share, part.force), {shifted(turn.x), shifted(turn.y), shifted(turn.z)}};
 }
 
 // The bodies and joints of one tree.
@@ -229,7 +235,7 @@ public:
 
     // A limit that turns one bone back on its joint takes the points along: some rounds bring both right.
     void undo() {
-        constexpr int most_rounds = 4;
+        constexpr int most_rounds = 6;
         bool far_off = true;
         for (int round = 0; round < most_rounds && far_off; ++round) {
             far_off = false;

@@ -107,6 +107,7 @@ struct Joint {
     BlockSide side_a;
     BlockSide side_b;
     BlockInverse inverse;
+    BlockInverse turn_inverse; // of hinges and fixed joints
 };
 
 // The definition that a description came from, without bodies and points.

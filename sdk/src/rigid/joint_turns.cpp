@@ -1,5 +1,8 @@
 #include "rigid/joint_turns.h"
 
+#include <algorithm>
+#include <bit>
+
 #include "rigid/joint_frames.h"
 
 namespace lks {
@@ -46,6 +49,52 @@ bool keeps_turn(const Joint& joint) {
     return joint.constants.angular_softness == 0;
 }
 
+// K with what it has along u and across it taken out, and one along it put in: as large as the greatest.
+void replace_axis(const Direction& u, std::int64_t (&k)[6]) {
+    const auto dot = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
+        return (x * u.x + y * u.y + z * u.z) >> 30;
+    };
+    const std::int64_t v[3] = {dot(k[0], k[1], k[2]), dot(k[1], k[3], k[4]), dot(k[2], k[4], k[5])};
+    const std::int64_t along = dot(v[0], v[1], v[2]) + std::max({k[0], k[3], k[5]});
+    const std::int64_t axis[3] = {u.x, u.y, u.z};
+    int entry = 0;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = i; j < 3; ++j) {
+            k[entry++] +=
+                ((along * ((axis[i] * axis[j]) >> 30)) >> 30) - ((axis[i] * v[j] + v[i] * axis[j]) >> 30);
+        }
+    }
+}
+
+// K⁻¹ of turning pushes in all directions; hinges let nothing be pushed about their axis, which an entry of
+// its own takes the place of.
+BlockInverse invert_turning(const Joint& joint, const Body& a, const Body& b) {
+    const JointConstants& c = joint.constants;
+    std::int64_t k[6] = {c.angular_softness, 0, 0, c.angular_softness, 0, c.angular_softness};
+    add_turning_block(a, c.shares.a, c.reach, k);
+    add_turning_block(b, c.shares.b, c.reach, k);
+    const std::int64_t greatest = std::max({k[0], k[3], k[5]});
+    if (greatest <= 0) {
+        return {};
+    }
+    // The greatest of the diagonal from 2^29 to 2^30.
+    const int up = std::countl_zero(static_cast<std::uint64_t>(greatest)) - 34;
+    for (std::int64_t& entry : k) {
+        entry = up >= 0 ? entry * (std::int64_t{1} << up) : entry >> -up;
+    }
+    if (joint.description.kind == LKS_JOINT_HINGE) {
+        replace_axis(fixed::rotate(a.rotation, c.axis_a), k);
+    }
+    BlockInverse inverse = invert_block(k);
+    inverse.shift += up;
+    return inverse;
+}
+
+// What the joint has to turn by, World.
+Vec3 angle_of(const Vec3& turned) {
+    return {to_world_angle(turned.x), to_world_angle(turned.y), to_world_angle(turned.z)};
+}
+
 } // namespace
 
 void begin_turn(Joint& joint, const Body& a, const Body& b) {
@@ -56,11 +105,21 @@ void begin_turn(Joint& joint, const Body& a, const Body& b) {
 }
 
 void warm_start_turn(Joint& joint, Body& a, Body& b) {
-    if (!holds_turn(joint) || !keeps_turn(joint)) {
-        joint.turn = {0, 0, 0};
-    } else {
-        turn_apart(joint, a, b, joint.turn);
+    if (!holds_turn(joint)) {
+        return;
     }
+    joint.turn_inverse = invert_turning(joint, a, b);
+    if (!keeps_turn(joint)) {
+        joint.turn = {0, 0, 0};
+        return;
+    }
+    if (joint.description.kind == LKS_JOINT_HINGE) {
+        // The axis has turned since: what the old push has along it would drive the hinge, and nothing holds
+        // it back.
+        const Direction axis = fixed::rotate(a.rotation, joint.constants.axis_a);
+        joint.turn = joint.turn - fixed::scale(axis, fixed::dot(axis, joint.turn));
+    }
+    turn_apart(joint, a, b, joint.turn);
 }
 
 void carry_more_turn(Joint& joint, Body& a, Body& b, std::int32_t share) {
@@ -76,18 +135,21 @@ void project_turn(Joint& joint, Body& a, Body& b) {
     if (!holds_turn(joint)) {
         return;
     }
-    fixed::NormalisedVector way{};
-    if (!fixed::normalise(turned_apart(joint, a, b) - joint.turn_start, way)) {
-        return;
+    const std::int64_t softness = joint.constants.angular_softness;
+    const auto soft = [&](std::int64_t c) { return fixed::multiply_shift(c, softness, 30); };
+    Vec3 left = angle_of(turned_apart(joint, a, b) - joint.turn_start);
+    if (softness != 0) {
+        left = left + Vec3{soft(joint.turn.x), soft(joint.turn.y), soft(joint.turn.z)};
     }
-    turn_back(joint, a, b, way.direction, to_world_angle(way.length), joint.constants.angular_softness,
-              joint.turn);
+    const Vec3 before = joint.turn;
+    joint.turn = before - solve(joint.turn_inverse, left);
+    clamp_vector(joint.turn, greatest_push);
+    turn_apart(joint, a, b, joint.turn - before);
 }
 
 void undo_turn(const Joint& joint, Body& a, Body& b) {
-    fixed::NormalisedVector way{};
-    if (holds_turn(joint) && keeps_turn(joint) && fixed::normalise(turned_apart(joint, a, b), way)) {
-        TurnRow(joint, a, b, way.direction).turn_by(-to_world_angle(way.length));
+    if (holds_turn(joint) && keeps_turn(joint)) {
+        turn_apart(joint, a, b, -solve(joint.turn_inverse, angle_of(turned_apart(joint, a, b))));
     }
 }
 

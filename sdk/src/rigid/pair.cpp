@@ -194,6 +194,14 @@ RowSide turn_side(const Body& body, std::int32_t share, const Direction& axis, i
     return side;
 }
 
+void add_turning_block(const Body& body, std::int32_t share, int reach, std::int64_t (&k)[6]) {
+    const SymmetricMatrix& m = body.world_inverse;
+    const std::int32_t entries[6] = {m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
+    for (int i = 0; i < 6; ++i) {
+        k[i] += shifted((std::int64_t{entries[i]} * share) >> 30, turning_shift(body, reach));
+    }
+}
+
 void turn_body(Body& body, const Vec3& half_turn_33) {
     constexpr std::int64_t limit = std::int64_t{1} << (half_turn_bits - 2);
     const std::int64_t x = std::clamp(half_turn_33.x, -limit, limit);

@@ -73,6 +73,8 @@ struct Move {
     fixed::Vec3 half_turn{0, 0, 0}; // half_turn_fraction_bits
 };
 
+// Adds the body's part to K = Σ wᵢ·Ĵᵢ of turning pushes with that reach, entries as above.
+void add_turning_block(const Body& body, std::int32_t share, int reach, std::int64_t (&k)[6]);
 // By a push (World).
 Move move_of(const Body& body, const BlockSide& side, const fixed::Vec3& p, int sign);
 void push(Body& body, const BlockSide& side, const fixed::Vec3& p, int sign);
