@@ -118,9 +118,10 @@ constexpr UInt128 multiply_halves(std::uint64_t a, std::uint64_t b) {
     return {p11 + (p01 >> 32) + (p10 >> 32) + (middle >> 32), (middle << 32) | (p00 & low_half)};
 }
 
-// By the machine's own product where the compiler has it: the same in one instruction.
+// By the machine's own product where it has one (WebAssembly has a function of another library): the same in
+// one instruction.
 constexpr UInt128 multiply_unsigned(std::uint64_t a, std::uint64_t b) {
-#if defined(__SIZEOF_INT128__)
+#if defined(__SIZEOF_INT128__) && !defined(__wasm__)
     __extension__ using Native = unsigned __int128;
     const Native product = static_cast<Native>(a) * b;
     return {static_cast<std::uint64_t>(product >> 64), static_cast<std::uint64_t>(product)};
@@ -138,7 +139,7 @@ constexpr Int128 multiply_signed_halves(std::int64_t a, std::int64_t b) {
 }
 
 constexpr Int128 multiply_signed(std::int64_t a, std::int64_t b) {
-#if defined(__SIZEOF_INT128__)
+#if defined(__SIZEOF_INT128__) && !defined(__wasm__)
     __extension__ using Native = __int128;
     const Native product = static_cast<Native>(a) * b;
     return {static_cast<std::int64_t>(product >> 64), static_cast<std::uint64_t>(product)};
