@@ -121,6 +121,37 @@ TEST_CASE("a ball joint's cone and twist hold a limb that is thrown about") {
     CHECK(twist < 5);
 }
 
+TEST_CASE("a limb that has come to its limit has no speed left") {
+    struct Case {
+        lks_joint_kind kind;
+        lks_vec3 spin; // about the joint's axis, y, or across it
+    };
+    for (const Case& c : {Case{LKS_JOINT_HINGE, fixed(0, 4, 0)}, Case{LKS_JOINT_BALL, fixed(0, 4, 0)},
+                          Case{LKS_JOINT_BALL, fixed(0, 0, 4)}}) {
+        lks_world_def weightless = world_def(60, 8);
+        weightless.gravity = {};
+        World world(weightless);
+        const lks_body_id anchor = add_anchor(world, {});
+        lks_body_def def = lks_default_body_def();
+        def.never_sleeps = 1;
+        def.angular_velocity = c.spin;
+        const lks_body_id limb = add_body(world, box_shape(0.1, 0.3, 0.2), {}, def);
+        lks_joint_def joint = lks_default_joint_def();
+        joint.kind = c.kind;
+        joint.swing_limit = fixed(40);
+        joint.twist_min = fixed(-30);
+        joint.twist_max = fixed(30);
+        const lks_joint_id id = add_joint(world, joint, anchor, limb);
+        world.step(60);
+        INFO("kind " << c.kind << ", spin " << metres(c.spin.y) << ", " << metres(c.spin.z));
+        CHECK(state_of(world, limb).spin.length() < 0.01);
+        lks_fixed swing = 0;
+        lks_fixed twist = 0;
+        REQUIRE(lks_joint_angles(world, id, &swing, &twist) == LKS_OK);
+        CHECK(std::abs(metres(c.spin.y != 0 ? twist : swing) - (c.spin.y != 0 ? 30 : 40)) < 0.5);
+    }
+}
+
 TEST_CASE("a fixed joint makes two bodies one") {
     World world(world_def(60, 20));
     const lks_body_id anchor = add_anchor(world, {});
