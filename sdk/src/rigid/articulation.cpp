@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "collide/saturation.h"
 #include "rigid/block.h"
 #include "rigid/body_motion.h"
 
 namespace lks {
 namespace {
 
+using fixed::Direction;
 using fixed::Vec3;
 
 constexpr int fraction_bits = 32;
@@ -185,6 +187,24 @@ void factor_joint(RigidScene& scene, ArticulatedJoint& part) {
     fold_in(parent.inverse, part);
 }
 
+// A light link under a great tension swings faster than a substep: beyond what a substep can follow it turns
+// as if it were heavier (the diagonal of an implicit geometric stiffness; Andrews, Teichmann, Kry 2017).
+void stiffen(Body& body, std::int64_t load) {
+    constexpr std::int64_t followed = std::int64_t{2} << world_fraction_bits;
+    const std::int64_t excess = load - followed;
+    if (excess <= 0) {
+        return;
+    }
+    // 1 / (1 + excess)
+    const auto left = static_cast<std::int32_t>(
+        (std::int64_t{1} << 62) / ((std::int64_t{1} << 32) + (excess >> (world_fraction_bits - 32))));
+    const auto part = [left](std::int32_t c) {
+        return static_cast<std::int32_t>(fixed::scale_component(left, c));
+    };
+    const SymmetricMatrix& m = body.world_inverse;
+    body.world_inverse = {part(m.xx), part(m.xy), part(m.xz), part(m.yy), part(m.yz), part(m.zz)};
+}
+
 // How the body's point at the lever moves with it.
 Vec3 point_motion(const ArticulatedBody& body, const Vec3& lever) {
     return body.shift + cross_32(body.turn, lever);
@@ -213,8 +233,17 @@ public:
     Tree(RigidScene& scene, const ArticulatedTree& range) : scene_(scene), range_(range) {}
 
     void factor() {
-        for_each_body(
-            [](Body& body, ArticulatedBody& part) { part.inverse = own_inverse(body, part.share); });
+        for_each_body([](Body&, ArticulatedBody& part) { part.load = 0; });
+        for_each_joint([this](const ArticulatedJoint& part, const Joint& joint) {
+            add_load(part.parent, joint, !part.child_is_a);
+            if (part.child_moves) {
+                add_load(part.child, joint, part.child_is_a);
+            }
+        });
+        for_each_body([](Body& body, ArticulatedBody& part) {
+            stiffen(body, part.load);
+            part.inverse = own_inverse(body, part.share);
+        });
         for_each_joint_back([this](ArticulatedJoint& part) { factor_joint(scene_, part); });
     }
 
@@ -270,6 +299,32 @@ private:
         for (std::uint32_t i = range_.joint_end; i-- > range_.first_joint;) {
             use(scene_.tree_joints[i]);
         }
+    }
+
+    // (hω)² of the body's swing across the lever under the joint's pull of the last substep: p/r times
+    // |r|²·tr Ĵ − rᵀĴr, World.
+    void add_load(std::uint32_t index, const Joint& joint, bool on_a) {
+        const Body& body = scene_.bodies[index];
+        const PairShares& shares = joint.constants.shares;
+        const Vec3& point = point_of(joint, on_a);
+        const auto in_units = [&](std::int64_t length) {
+            return body.scale >= 0 ? length >> body.scale : length * (std::int64_t{1} << -body.scale);
+        };
+        fixed::NormalisedVector lever{};
+        if (!fixed::normalise(point, lever)) {
+            return;
+        }
+        const SymmetricMatrix& m = body.inverse_inertia;
+        const Direction& d = lever.direction;
+        const std::int64_t along = fixed::dot(d, multiply(m, Vec3{d.x, d.y, d.z})); // 30 fraction bits
+        const std::int64_t across = std::int64_t{m.xx} + m.yy + m.zz - along;
+        const std::int64_t pull = in_units(
+            std::min(fixed::scale_component(on_a ? shares.a : shares.b, joint.tension), greatest_step));
+        const std::int64_t load =
+            fixed::multiply_shift(fixed::multiply_shift(pull, in_units(lever.length), world_fraction_bits),
+                                  across, 30 - body.inverse_shift);
+        std::int64_t& sum = scene_.articulated[index].load;
+        sum = std::min(fixed::saturating_add(sum, load), greatest_push);
     }
 
     Body& body_a(const Joint& joint) { return scene_.bodies[joint.description.body_a]; }

@@ -21,6 +21,7 @@ struct ArticulatedInverse {
 struct ArticulatedBody {
     std::int64_t share; // of the tree's greatest inverse mass
     bool attached;
+    std::int64_t load; // (hω)² of its swing under what pulled at it in the last substep, World
     ArticulatedInverse inverse;
     // What the joints beyond it have done to it, and what those towards the root push it.
     fixed::Vec3 shift;

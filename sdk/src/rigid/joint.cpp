@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collide/saturation.h"
 #include "rigid/joint_drive.h"
 #include "rigid/joint_limits.h"
 #include "rigid/joint_turns.h"
@@ -93,6 +94,7 @@ void begin_substep(Joint& joint, const Body& a, const Body& b) {
     joint.begin = joint_offset(joint, a, b);
     joint.start = keeps_push(joint) ? joint.begin : Vec3{0, 0, 0};
     if (joint.in_tree) {
+        joint.tension = sum_of_magnitudes(joint.push);
         joint.push = {0, 0, 0};
     }
     aim_motor(joint, a, b);

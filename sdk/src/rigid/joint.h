@@ -96,6 +96,7 @@ struct Joint {
     bool in_tree;
 
     // Of the substep.
+    std::int64_t tension;     // how much it pushed in the one before: World
     fixed::Vec3 begin;        // how far the points were apart at its beginning
     fixed::Vec3 start;        // what of it is to be kept
     fixed::Vec3 turn_start;   // how far a hinge's or a fixed joint's frames are turned at its beginning
