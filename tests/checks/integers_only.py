@@ -32,7 +32,7 @@ denied_everywhere = [
     (r"\b__(?:attribute__|builtin_\w+|asm__)|\basm\b", "a compiler extension"),
 ]
 
-# Has products by the compiler's own type where there is one, and by halves beside it; a test compares the two.
+# Has products by the compiler's own type where there is one, and by halves beside it; a test compares them.
 two_ways = "fixed/int128.h"
 
 # x86-64: arithmetic, comparison, conversion and rounding of scalar or packed floating point, and all of x87.
