@@ -30,7 +30,7 @@ double angle_between(const Rotation& a, const Rotation& b) {
 }
 
 // Also where it is no number.
-void raise(double& greatest, double value) {
+void keep_greatest(double& greatest, double value) {
     if (!(value <= greatest)) {
         greatest = value;
     }
@@ -38,8 +38,8 @@ void raise(double& greatest, double value) {
 
 void compare(RigidDistance& distance, const RigidSolver<double>& expected, std::size_t body,
              const support::Vector& position, const Rotation& orientation) {
-    raise(distance.metres, (position - expected.position(body)).length());
-    raise(distance.radians, angle_between(orientation, expected.orientation(body)));
+    keep_greatest(distance.metres, (position - expected.position(body)).length());
+    keep_greatest(distance.radians, angle_between(orientation, expected.orientation(body)));
 }
 
 } // namespace
