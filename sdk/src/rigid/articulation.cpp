@@ -38,6 +38,9 @@ Vec3 cross_32(const Vec3& a, const Vec3& b) {
     return Vec3{m(a.y, b.z), m(a.z, b.x), m(a.x, b.y)} - Vec3{m(a.z, b.y), m(a.x, b.z), m(a.y, b.x)};
 }
 
+// Where a symmetric matrix has its rows: xx, xy, xz, yy, yz, zz.
+constexpr int rows_of_symmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+
 Vec3 symmetric(const std::int64_t (&m)[6], const Vec3& v) {
     return {dot_32({m[0], m[1], m[2]}, v), dot_32({m[1], m[3], m[4]}, v), dot_32({m[2], m[4], m[5]}, v)};
 }
@@ -67,13 +70,8 @@ void push_columns(const ArticulatedInverse& w, const Vec3& lever, Vec3 (&shift)[
         const Vec3 arm = axis == 0   ? Vec3{0, lever.z, -lever.y}
                          : axis == 1 ? Vec3{-lever.z, 0, lever.x}
                                      : Vec3{lever.y, -lever.x, 0};
-        shift[axis] = Vec3{w.shift[axis == 0 ? 0 : axis],
-                           w.shift[axis == 0   ? 1
-                                   : axis == 1 ? 3
-                                               : 4],
-                           w.shift[axis == 0   ? 2
-                                   : axis == 1 ? 4
-                                               : 5]} +
+        const int(&row)[3] = rows_of_symmetric[axis];
+        shift[axis] = Vec3{w.shift[row[0]], w.shift[row[1]], w.shift[row[2]]} +
                       Vec3{dot_32({w.mixed[0], w.mixed[1], w.mixed[2]}, arm),
                            dot_32({w.mixed[3], w.mixed[4], w.mixed[5]}, arm),
                            dot_32({w.mixed[6], w.mixed[7], w.mixed[8]}, arm)};

@@ -26,12 +26,6 @@ std::int64_t share_of(const InverseMass& part, const InverseMass& whole) {
     return static_cast<std::int64_t>(std::min<std::uint64_t>(quotient >> down, std::uint64_t{1} << 32));
 }
 
-bool is_lighter(const Body& a, const Body& b) {
-    const InverseMass& p = a.inverse_mass;
-    const InverseMass& q = b.inverse_mass;
-    return p.exponent != q.exponent ? p.exponent > q.exponent : p.mantissa > q.mantissa;
-}
-
 bool is_near(const Body& body, const Vec3& point) {
     const std::int64_t unit = body.scale >= 0 ? std::int64_t{1} << (world_fraction_bits + body.scale)
                                               : (std::int64_t{1} << world_fraction_bits) >> -body.scale;
@@ -128,7 +122,7 @@ private:
         std::uint32_t lightest = root;
         for (std::size_t next = begin; next < scene_.tree_bodies.size(); ++next) {
             const std::uint32_t parent = scene_.tree_bodies[next];
-            if (is_lighter(scene_.bodies[parent], scene_.bodies[lightest])) {
+            if (heavier(scene_.bodies[lightest].inverse_mass, scene_.bodies[parent].inverse_mass)) {
                 lightest = parent;
             }
             attached = attached || scene_.articulated[parent].attached;

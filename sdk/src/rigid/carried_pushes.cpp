@@ -165,7 +165,7 @@ private:
         const InverseMass* best = &scene_.bodies[index_of(parts_[0])].inverse_mass;
         for_each(Part::body, [&](std::uint32_t i) {
             const InverseMass& other = scene_.bodies[i].inverse_mass;
-            best = pair_shares(other, *best).a < direction_one ? &other : best;
+            best = heavier(other, *best) ? &other : best;
         });
         return *best;
     }

@@ -92,6 +92,17 @@ void add_point(const Contact& contact, const ContactPoint& point, const ContactP
     }
 }
 
+// Of all its points.
+Pushes pushes_of(const Contact& contact) {
+    Pushes pushes;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        if (contact.points[i].active) {
+            add_point(contact, contact.points[i], contact.points[i].push, pushes);
+        }
+    }
+    return pushes;
+}
+
 std::int64_t grip(std::int64_t push, std::uint32_t friction) {
     return (std::min(push, greatest_gripping_push) * std::int64_t{friction}) >> 18;
 }
@@ -267,22 +278,11 @@ void warm_start(Contact& contact, ContactBodies bodies) {
                                                point.across_a[t], point.across_b[t]);
         }
     }
-    Pushes pushes;
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        if (contact.points[i].active) {
-            add_point(contact, contact.points[i], contact.points[i].push, pushes);
-        }
-    }
-    pushes.apply_to(bodies);
+    pushes_of(contact).apply_to(bodies);
 }
 
 void add_pushes(const Contact& contact, bool to_a, Move& move) {
-    Pushes pushes;
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        if (contact.points[i].active) {
-            add_point(contact, contact.points[i], contact.points[i].push, pushes);
-        }
-    }
+    const Pushes pushes = pushes_of(contact);
     const Move& all = to_a ? pushes.to_a() : pushes.to_b();
     move.shift = move.shift + all.shift;
     move.half_turn = move.half_turn + all.half_turn;

@@ -356,9 +356,8 @@ private:
         const std::int64_t closing = per_tick(-fixed::dot(manifold.normal, b.velocity - a.velocity));
         const bool comes = (a.is_awake() || b.is_awake()) && closing > per_tick(gentle_speed);
         const bool carried = !a.is_dynamic() || !b.is_dynamic();
-        for (std::uint32_t i = 0; i < manifold.count; ++i) {
-            if ((comes || carried) &&
-                manifold.points[i].separation <= touching + std::max<std::int64_t>(closing, 0)) {
+        for (std::uint32_t i = 0; (comes || carried) && i < manifold.count; ++i) {
+            if (manifold.points[i].separation <= touching + std::max<std::int64_t>(closing, 0)) {
                 wake(a.asleep != 0 ? a : b);
                 woken_ = true;
                 return true;

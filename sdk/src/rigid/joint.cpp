@@ -24,6 +24,12 @@ void push_apart(const Joint& joint, Body& a, Body& b, const Vec3& p) {
     push(b, joint.side_b, p, 1);
 }
 
+// Trees solve the points of their joints; motors bring them together within their rounds all the same.
+bool needs_block(const Joint& joint) {
+    return joint.description.kind != LKS_JOINT_DISTANCE &&
+           (!joint.in_tree || joint.description.motor_torque != 0);
+}
+
 // The points together, in all directions at once (XPBD eq. 18).
 void project_points(Joint& joint, Body& a, Body& b) {
     const Vec3 offset = joint_offset(joint, a, b);
@@ -110,7 +116,7 @@ void warm_start(Joint& joint, Body& a, Body& b) {
     if (!keeps_push(joint)) {
         joint.push = {0, 0, 0};
     }
-    if (d.kind != LKS_JOINT_DISTANCE) {
+    if (needs_block(joint)) {
         const std::int64_t softness = joint.constants.points.softness;
         std::int64_t k[6] = {softness, 0, 0, softness, 0, softness};
         joint.side_a = block_side(a, joint.constants.shares.a, fixed::rotate(a.rotation, d.point_a), k);

@@ -41,13 +41,6 @@ std::int32_t share_of(const InverseMass& part, const InverseMass& whole) {
         std::min<std::uint64_t>(fixed::shift_right_rounded(quotient, down), one));
 }
 
-bool less(const InverseMass& a, const InverseMass& b) {
-    if (a.mantissa == 0 || b.mantissa == 0) {
-        return a.mantissa == 0 && b.mantissa != 0;
-    }
-    return a.exponent != b.exponent ? a.exponent < b.exponent : a.mantissa < b.mantissa;
-}
-
 Direction multiply_direction(const SymmetricMatrix& m, const Direction& v) {
     return {fixed::dot(Direction{m.xx, m.xy, m.xz}, v), fixed::dot(Direction{m.xy, m.yy, m.yz}, v),
             fixed::dot(Direction{m.xz, m.yz, m.zz}, v)};
@@ -120,8 +113,15 @@ Vec3 half_turn_of(const Body& body, std::int32_t share, int shift, const Vec3& p
 
 } // namespace
 
+bool heavier(const InverseMass& a, const InverseMass& b) {
+    if (a.mantissa == 0 || b.mantissa == 0) {
+        return a.mantissa == 0 && b.mantissa != 0;
+    }
+    return a.exponent != b.exponent ? a.exponent < b.exponent : a.mantissa < b.mantissa;
+}
+
 PairShares pair_shares(const InverseMass& a, const InverseMass& b) {
-    const InverseMass& greater = less(a, b) ? b : a;
+    const InverseMass& greater = heavier(a, b) ? b : a;
     return {share_of(a, greater), share_of(b, greater)};
 }
 

@@ -23,6 +23,8 @@ struct PairShares {
     friend constexpr bool operator==(const PairShares&, const PairShares&) = default;
 };
 
+// Whether the first one's mass is the greater.
+bool heavier(const InverseMass& a, const InverseMass& b);
 // Both zero where both are infinitely heavy.
 PairShares pair_shares(const InverseMass& a, const InverseMass& b);
 
