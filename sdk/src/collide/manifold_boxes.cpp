@@ -110,7 +110,10 @@ public:
 
     void run() {
         find_faces();
-        find_edges();
+        out_.normal = face_normal_;
+        if (face_separation_ > margin_ || !find_edges()) {
+            return;
+        }
         if (best_edge_ < 0) {
             touch_face();
         } else {
@@ -150,10 +153,16 @@ private:
         }
     }
 
-    void find_edges() {
+    // False: they are apart.
+    bool find_edges() {
         std::int64_t best = face_separation_ + 4 * tolerance;
+        const Vec3 offset = fixed::rotate_transposed(a_.axes, offset_);
         for (int i = 0; i < 3; ++i) {
             for (int j = 0; j < 3; ++j) {
+                const std::int64_t most = overlap_along_edges(offset, i, j) + tolerance;
+                if (most < 0 && most <= best) {
+                    continue;
+                }
                 const Direction u = axis(a_.axes, i);
                 const Direction v = axis(b_.axes, j);
                 // Edges within 3° of each other meet as faces do.
@@ -167,6 +176,9 @@ private:
                 const Direction in_b = fixed::rotate_transposed(b_.axes, n);
                 const std::int64_t separation =
                     size(distance) - width(a_, in_a.x, in_a.y, in_a.z) - width(b_, in_b.x, in_b.y, in_b.z);
+                if (separation > margin_) {
+                    return false;
+                }
                 if (separation > best) {
                     best = separation;
                     best_edge_ = 3 * i + j;
@@ -174,6 +186,24 @@ private:
                 }
             }
         }
+        return true;
+    }
+
+    // The separation along u×v as it is, no unit vector: where negative, the true one is no greater. `offset`
+    // is in the axes of a.
+    std::int64_t overlap_along_edges(const Vec3& offset, int i, int j) const {
+        const int i1 = (i + 1) % 3;
+        const int i2 = (i + 2) % 3;
+        const std::int64_t t[3] = {offset.x, offset.y, offset.z};
+        const std::int64_t distance =
+            fixed::scale_component(cosines_[i1][j], t[i2]) - fixed::scale_component(cosines_[i2][j], t[i1]);
+        const auto part = [](std::int32_t c, std::int64_t e) {
+            return fixed::scale_component(c < 0 ? -c : c, e);
+        };
+        return size(distance) - part(cosines_[i2][j], extent(a_, i1)) -
+               part(cosines_[i1][j], extent(a_, i2)) -
+               part(cosines_[i][(j + 2) % 3], extent(b_, (j + 1) % 3)) -
+               part(cosines_[i][(j + 1) % 3], extent(b_, (j + 2) % 3));
     }
 
     void touch_face() {

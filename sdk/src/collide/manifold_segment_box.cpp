@@ -125,6 +125,9 @@ public:
     }
 
     void run() {
+        if (apart()) {
+            return;
+        }
         const std::int64_t s = nearest_place(local_);
         const Vec3 excess{local_.excess(0, s), local_.excess(1, s), local_.excess(2, s)};
         const int outside = (excess.x != 0 ? 1 : 0) + (excess.y != 0 ? 1 : 0) + (excess.z != 0 ? 1 : 0);
@@ -144,6 +147,25 @@ public:
     }
 
 private:
+    // By one of the box's faces.
+    bool apart() {
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::int32_t c = local_.direction[axis];
+            const std::int64_t centre = local_.centre[axis];
+            const std::int64_t reach =
+                fixed::scale_component(c < 0 ? -c : c, local_.half) + local_.extents[axis] + piece_.radius;
+            // By more than roundings could make.
+            constexpr std::int64_t room = std::int64_t{1} << (world_fraction_bits - 20);
+            if ((centre < 0 ? -centre : centre) - reach > margin_ + room) {
+                std::int32_t outward[3] = {0, 0, 0};
+                outward[axis] = centre < 0 ? -direction_one : direction_one;
+                set_normal({outward[0], outward[1], outward[2]});
+                return true;
+            }
+        }
+        return false;
+    }
+
     // `outward` is from the box, in its frame; the manifold's normal is from the segment to the box.
     void set_normal(const Direction& outward) { out_.normal = -fixed::rotate(box_.axes, outward); }
 

@@ -188,8 +188,9 @@ Levers levers_now(const Contact& contact, const ContactPoint& point, const Body&
 } // namespace
 
 std::uint32_t combined_friction(std::int64_t a, std::int64_t b) {
-    const fixed::UInt128 product = fixed::multiply_unsigned(fixed::magnitude(a), fixed::magnitude(b));
-    const std::uint64_t root = fixed::square_root(product); // World
+    const std::uint64_t root = // World
+        a == b ? fixed::magnitude(a)
+               : fixed::square_root(fixed::multiply_unsigned(fixed::magnitude(a), fixed::magnitude(b)));
     return static_cast<std::uint32_t>(fixed::shift_right_rounded(root, world_fraction_bits - 18));
 }
 
