@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/bodies.h"
 #include "support/builders.h"
 #include "support/scene.h"
 
@@ -130,6 +131,33 @@ lks_world_def crowd_def(std::uint32_t workers) {
 
 constexpr int ticks = 12;
 
+// Humanoids that fall into each other onto a board that moves, faster than they may be.
+std::vector<std::uint64_t> ragdoll_hashes(const lks_world_def& def) {
+    World world(def);
+    add_ground(world);
+    lks_body_def board = lks_default_body_def();
+    board.kind = LKS_BODY_KINEMATIC;
+    const lks_body_id moved = add_body(world, box_shape(2, 0.05, 2), fixed(0, 0.05, 0), board);
+    for (int i = 0; i < 6; ++i) {
+        Humanoid humanoid;
+        humanoid.def.transform.position = fixed(0.3 * i, 0.2 + 0.4 * i, 0.2 * (i % 2));
+        lks_body_id bodies[LKS_HUMANOID_BONES];
+        REQUIRE(humanoid.add(world, bodies) == LKS_OK);
+        const lks_vec3 fast = fixed(0, -40, 600);
+        REQUIRE(lks_body_set_velocity(world, bodies[LKS_HUMANOID_HAND_LEFT], fast, fixed(0, 400, 0)) ==
+                LKS_OK);
+    }
+    std::vector<std::uint64_t> found;
+    for (int tick = 0; tick < 4 * ticks; ++tick) {
+        lks_transform there = at(0.02 * tick, 0.05, 0);
+        REQUIRE(lks_body_move_to(world, moved, there) == LKS_OK);
+        world.step();
+        found.push_back(world.hash());
+    }
+    found.push_back(world.counters().speed_clamps);
+    return found;
+}
+
 } // namespace
 
 TEST_CASE("one to eight workers of the world's own give the same hashes and counters as one") {
@@ -167,8 +195,26 @@ TEST_CASE("a small world asks nobody for help") {
     for (int i = 0; i < 5; ++i) {
         world.add(chain, at(i, 0, 0));
     }
+    for (int i = 0; i < 5; ++i) {
+        add_body(world, ball_shape(0.1), fixed(i, 3, 0));
+    }
     world.step(20);
     CHECK(system.tasks() == 0);
+}
+
+TEST_CASE("a crowd of ragdolls gives the same hashes on one to eight workers, and on a game's") {
+    const std::vector<std::uint64_t> expected = ragdoll_hashes(crowd_def(1));
+    for (std::uint32_t workers = 2; workers <= 8; ++workers) {
+        CAPTURE(workers);
+        CHECK(ragdoll_hashes(crowd_def(workers)) == expected);
+    }
+    for (const Temper temper : {Temper::at_once, Temper::late, Temper::threads}) {
+        TaskSystem system(temper);
+        lks_world_def def = crowd_def(3);
+        def.tasks = system.interface();
+        CHECK(ragdoll_hashes(def) == expected);
+        CHECK(system.tasks() == 4 * ticks * 2);
+    }
 }
 
 TEST_CASE("an image of a world with many workers continues in a world with one") {

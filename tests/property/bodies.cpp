@@ -159,8 +159,8 @@ TEST_CASE("ten boxes upon each other stand for a minute") {
     }
     world.step(3600);
     const BodyState top = state_of(world, boxes[9]);
-    CHECK(std::abs(top.position.x) < 1e-3);
-    CHECK(std::abs(top.position.z) < 1e-3);
+    CHECK(std::abs(top.position.x) < 5e-5);
+    CHECK(std::abs(top.position.z) < 5e-5);
     CHECK(top.position.y > 9.5 - 5e-3);
     CHECK(energy_of(world) < 1e-3);
     for (int i = 0; i < 10; ++i) {

@@ -188,6 +188,38 @@ TEST_CASE("a box that lies on a box touches it in four points, on a plane too") 
     CHECK(manifold.normal.y == -(1 << 30));
 }
 
+TEST_CASE("equal boxes upon each other touch at their corners, a hair aside and tilted by one too") {
+    Random random(12);
+    lks::Piece low{};
+    low.kind = LKS_SHAPE_BOX;
+    low.half_extents = {fixed(0.5), fixed(0.5), fixed(0.5)};
+    low.axes = lks::fixed::to_matrix(lks::fixed::identity_rotation());
+    for (int round = 0; round < 2000; ++round) {
+        const double hair = std::ldexp(1.0, -14 - round % 24);
+        const auto some = [&](double size) { return size * (2 * unit(random) - 1); };
+        const auto turn = [&] { return static_cast<std::int32_t>(some(0x1p30 * hair)); };
+        lks::Piece high = low;
+        high.centre = {fixed(some(hair)), fixed(1 - 0.001 * unit(random)), fixed(some(hair))};
+        high.axes = lks::fixed::to_matrix(
+            lks::fixed::normalise(lks::fixed::Rotation{turn(), turn(), turn(), 1 << 30}));
+        lks::Manifold manifold{};
+        lks::collide(low, high, fixed(0.01), manifold);
+        REQUIRE(manifold.count == 4);
+        double sum_x = 0;
+        double sum_z = 0;
+        for (const lks::ManifoldPoint& point : manifold.points) {
+            const double x = metres(point.core_a.x);
+            const double z = metres(point.core_a.z);
+            CHECK(std::abs(std::abs(x) - 0.5) < 3e-4);
+            CHECK(std::abs(std::abs(z) - 0.5) < 3e-4);
+            sum_x += x;
+            sum_z += z;
+        }
+        CHECK(std::abs(sum_x) < 1e-3);
+        CHECK(std::abs(sum_z) < 1e-3);
+    }
+}
+
 TEST_CASE("shapes in exactly the same place have a normal and an overlap") {
     Random random(21);
     for (const std::uint32_t kind : {LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE, LKS_SHAPE_BOX}) {

@@ -244,10 +244,14 @@ private:
             polygon.add({fixed::dot(axis_u, world), fixed::dot(axis_v, world),
                          extent(reference, k) - fixed::dot(outward, world), feature});
         }
-        polygon = cut(polygon, false, 1, extent(reference, along_u), 0);
-        polygon = cut(polygon, false, -1, extent(reference, along_u), 1);
-        polygon = cut(polygon, true, 1, extent(reference, along_v), 2);
-        polygon = cut(polygon, true, -1, extent(reference, along_v), 3);
+        // A little beyond the face: what lies edge upon edge, but for roundings, keeps its corners. Cut off
+        // by a hair, an edge would have one anywhere.
+        const std::int64_t extent_u = extent(reference, along_u) + tolerance;
+        const std::int64_t extent_v = extent(reference, along_v) + tolerance;
+        polygon = cut(polygon, false, 1, extent_u, 0);
+        polygon = cut(polygon, false, -1, extent_u, 1);
+        polygon = cut(polygon, true, 1, extent_v, 2);
+        polygon = cut(polygon, true, -1, extent_v, 3);
         reduce(polygon);
         const std::uint32_t side = static_cast<std::uint32_t>(best_face_ * 6 + face) << 24;
         for (std::uint32_t i = 0; i < polygon.count; ++i) {

@@ -369,28 +369,22 @@ private:
 
 } // namespace
 
-void factor_articulations(RigidScene& scene) {
-    for (const ArticulatedTree& tree : scene.trees) {
-        Tree(scene, tree).factor();
-    }
+void factor_articulation(RigidScene& scene, const ArticulatedTree& tree) {
+    Tree(scene, tree).factor();
 }
 
-void solve_articulations(RigidScene& scene) {
-    for (const ArticulatedTree& tree : scene.trees) {
-        Tree(scene, tree)
-            .solve([](const Joint& joint, const Body& a,
-                      const Body& b) { return joint_offset(joint, a, b) - joint.start; },
-                   [](Joint& joint, const Vec3& push) {
-                       joint.push = joint.push + push;
-                       clamp_vector(joint.push, greatest_push);
-                   });
-    }
+void solve_articulation(RigidScene& scene, const ArticulatedTree& tree) {
+    Tree(scene, tree)
+        .solve([](const Joint& joint, const Body& a,
+                  const Body& b) { return joint_offset(joint, a, b) - joint.start; },
+               [](Joint& joint, const Vec3& push) {
+                   joint.push = joint.push + push;
+                   clamp_vector(joint.push, greatest_push);
+               });
 }
 
-void undo_articulations(RigidScene& scene) {
-    for (const ArticulatedTree& tree : scene.trees) {
-        Tree(scene, tree).undo();
-    }
+void undo_articulation(RigidScene& scene, const ArticulatedTree& tree) {
+    Tree(scene, tree).undo();
 }
 
 } // namespace lks

@@ -22,11 +22,11 @@ namespace lks {
 
 // Which joints are solved so in this tick, from the leaves on; marks them.
 void find_articulations(RigidScene& scene);
-// Once the bodies are predicted: the factors of all trees.
-void factor_articulations(RigidScene& scene);
+// Once the bodies are predicted: the factors of a tree.
+void factor_articulation(RigidScene& scene, const ArticulatedTree& tree);
 // Brings back to zero how much the points have parted in this substep, with speed.
-void solve_articulations(RigidScene& scene);
-// Once velocities are known: all errors of their joints (undo_error, and the points), without giving speed.
-void undo_articulations(RigidScene& scene);
+void solve_articulation(RigidScene& scene, const ArticulatedTree& tree);
+// Once velocities are known: all errors of its joints (undo_error, and the points), without giving speed.
+void undo_articulation(RigidScene& scene, const ArticulatedTree& tree);
 
 } // namespace lks

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "rigid/body_roots.h"
 #include "rigid/contact_search.h"
+#include "rigid/figures.h"
 
 namespace lks {
 namespace {
@@ -11,22 +11,6 @@ namespace {
 using fixed::Int128;
 using fixed::UInt128;
 using fixed::Vec3;
-
-// What belongs to a figure, in the order of its work.
-enum class Part : std::uint64_t { body, joint, contact, attachment };
-
-constexpr std::uint64_t name_part(std::uint32_t figure, Part kind, std::size_t index) {
-    return std::uint64_t{figure} << 34 | static_cast<std::uint64_t>(kind) << 32 | index;
-}
-constexpr std::uint32_t figure_of(std::uint64_t part) {
-    return static_cast<std::uint32_t>(part >> 34);
-}
-constexpr Part kind_of(std::uint64_t part) {
-    return static_cast<Part>(part >> 32 & 3);
-}
-constexpr std::uint32_t index_of(std::uint64_t part) {
-    return static_cast<std::uint32_t>(part);
-}
 
 // Motions of a substep in six dimensions: metres of 26 fraction bits, up to 8 m. Turns are in the body's axes
 // and count at the body's unit of length (rigid/inertia.h).
@@ -100,8 +84,8 @@ std::int32_t missing_share(const Int128& g, const Int128& q) {
 
 class Figure {
 public:
-    Figure(RigidScene& scene, const std::uint64_t* parts, std::size_t count)
-        : scene_(scene), parts_(parts), kinds_(split(parts, count)), heaviest_(heaviest()) {}
+    Figure(RigidScene& scene, const FigureRange& range)
+        : scene_(scene), range_(range), heaviest_(heaviest()) {}
 
     std::int32_t share_to_add(std::int64_t least_motion) {
         for_each(Part::body, [this](std::uint32_t i) { add_body(i); });
@@ -125,44 +109,46 @@ public:
             carry_more(joint, scene_.bodies[joint.description.body_a],
                        scene_.bodies[joint.description.body_b], share);
         });
-        for_each(Part::contact, [&](std::uint32_t i) {
-            Contact& contact = scene_.contacts[i];
-            carry_more(contact, {scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other)},
-                       share);
-        });
+        for (const Part kind : {Part::contact, Part::shared_contact}) {
+            for_each(kind, [&](std::uint32_t i) {
+                Contact& contact = scene_.contacts[i];
+                carry_more(contact,
+                           {scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other)}, share);
+            });
+        }
+    }
+
+    // It has been added to: what others had in mind with it has to be thought over.
+    void mark_changed() {
+        scene_.figures_changed[figure()] = 1;
+        for_each(Part::shared_contact,
+                 [this](std::uint32_t i) { scene_.figures_changed[neighbour_of(i)] = 1; });
+    }
+    bool knows_changed() const {
+        bool any = scene_.figures_changed[figure()] != 0;
+        for_each(Part::shared_contact,
+                 [&](std::uint32_t i) { any = any || scene_.figures_changed[neighbour_of(i)] != 0; });
+        return any;
     }
 
 private:
     // An eighth.
     static constexpr std::uint64_t least_share = std::uint64_t{1} << 27;
 
-    // Where the parts of each kind begin.
-    struct Kinds {
-        std::size_t begins[5];
-    };
-    static Kinds split(const std::uint64_t* parts, std::size_t count) {
-        Kinds kinds{};
-        std::size_t i = 0;
-        for (std::size_t kind = 0; kind < 4; ++kind) {
-            kinds.begins[kind] = i;
-            while (i < count && static_cast<std::size_t>(kind_of(parts[i])) == kind) {
-                ++i;
-            }
-        }
-        kinds.begins[4] = count;
-        return kinds;
-    }
-
     template <typename Use>
     void for_each(Part kind, const Use& use) const {
-        const auto k = static_cast<std::size_t>(kind);
-        for (std::size_t i = kinds_.begins[k]; i < kinds_.begins[k + 1]; ++i) {
-            use(index_of(parts_[i]));
-        }
+        for_each_part(scene_, range_, kind, use);
+    }
+
+    std::uint64_t first_part() const { return scene_.figure_parts[range_.begin()]; }
+    std::uint32_t figure() const { return figure_of(first_part()); }
+    std::uint32_t neighbour_of(std::uint32_t contact) const {
+        const ContactKey& key = scene_.contacts[contact].key;
+        return scene_.figures[scene_.figures[key.body_a] == figure() ? key.other : key.body_a];
     }
 
     const InverseMass& heaviest() const {
-        const InverseMass* best = &scene_.bodies[index_of(parts_[0])].inverse_mass;
+        const InverseMass* best = &scene_.bodies[index_of(first_part())].inverse_mass;
         for_each(Part::body, [&](std::uint32_t i) {
             const InverseMass& other = scene_.bodies[i].inverse_mass;
             best = heavier(other, *best) ? &other : best;
@@ -188,32 +174,26 @@ private:
 
     // What the contacts with other figures do to these; those of the same two bodies stand together.
     void add_neighbours() {
-        const std::uint32_t own = figure_of(parts_[0]);
         Move move;
         std::uint32_t a = UINT32_MAX;
         std::uint32_t other = UINT32_MAX;
         const auto finish = [&] {
             if (a != UINT32_MAX) {
-                const std::uint32_t neighbour = scene_.figures[a] == own ? other : a;
+                const std::uint32_t neighbour = scene_.figures[a] == figure() ? other : a;
                 const Body& body = scene_.bodies[neighbour];
                 add_products(neighbour, mass_of(body), motion_of_move(body, move), motion_of_substep(body));
             }
         };
-        for_each(Part::contact, [&](std::uint32_t i) {
+        for_each(Part::shared_contact, [&](std::uint32_t i) {
             const Contact& contact = scene_.contacts[i];
             const ContactKey& key = contact.key;
-            if (key.other >= other_is_collider || !scene_.bodies[key.other].is_awake() ||
-                !scene_.bodies[key.body_a].is_awake() ||
-                scene_.figures[key.body_a] == scene_.figures[key.other]) {
-                return;
-            }
             if (key.body_a != a || key.other != other) {
                 finish();
                 a = key.body_a;
                 other = key.other;
                 move = {};
             }
-            add_pushes(contact, scene_.figures[key.body_a] != own, move);
+            add_pushes(contact, scene_.figures[key.body_a] != figure(), move);
         });
         finish();
     }
@@ -229,74 +209,50 @@ private:
     }
 
     RigidScene& scene_;
-    const std::uint64_t* parts_;
-    Kinds kinds_;
+    const FigureRange& range_;
     const InverseMass& heaviest_;
     Int128 g_{0, 0};
     Int128 q_{0, 0};
     std::uint64_t mass_ = 0; // 30 fraction bits
 };
 
+std::int64_t least_motion_of(const MotionRate& rate, std::int64_t least_speed) {
+    return std::min(least_speed / rate.substeps_per_second >> (world_fraction_bits - motion_fraction_bits),
+                    greatest_motion);
+}
+
+bool is_pushed(const FigureRange& range) {
+    return range.count(Part::joint) != 0 || range.count(Part::contact) != 0 ||
+           range.count(Part::shared_contact) != 0;
+}
+
 } // namespace
 
-void find_figures(RigidScene& scene) {
-    BodyRoots roots(scene, scene.figures);
-    roots.join_by_joints();
-    scene.figure_parts.clear();
-    const auto add = [&](std::uint32_t body, Part kind, std::size_t index) {
-        if (scene.bodies[body].is_awake()) {
-            scene.figure_parts.push_reserved(name_part(roots.root(body), kind, index));
-        }
-    };
-    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-        scene.figures[i] = roots.root(i);
-        if (scene.body_slots[i].used) {
-            add(i, Part::body, i);
-        }
-    }
-    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
-        if (scene.joint_slots[i].used) {
-            const JointDescription& joint = scene.joints[i].description;
-            add(scene.bodies[joint.body_a].is_awake() ? joint.body_a : joint.body_b, Part::joint, i);
-        }
-    }
-    for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-        const ContactKey& key = scene.contacts[i].key;
-        add(key.body_a, Part::contact, i);
-        if (key.other < other_is_collider &&
-            (roots.root(key.other) != roots.root(key.body_a) || !scene.bodies[key.body_a].is_awake())) {
-            add(key.other, Part::contact, i);
-        }
-    }
-    for (std::size_t i = 0; i < scene.attachments.size(); ++i) {
-        const AttachmentDescription& d = scene.attachments[i].description;
-        if (scene.attachment_slots[i].used && d.kind == LKS_ATTACHMENT_TO_BODY) {
-            add(d.other, Part::attachment, i);
-        }
-    }
-    std::sort(scene.figure_parts.begin(), scene.figure_parts.end());
+std::int32_t share_to_add(RigidScene& scene, const FigureRange& range, const MotionRate& rate,
+                          std::int64_t least_speed) {
+    return is_pushed(range) ? Figure(scene, range).share_to_add(least_motion_of(rate, least_speed)) : 0;
 }
 
 bool scale_carried_pushes(RigidScene& scene, const MotionRate& rate, std::int64_t least_speed) {
-    const std::int64_t least_motion =
-        std::min(least_speed / rate.substeps_per_second >> (world_fraction_bits - motion_fraction_bits),
-                 greatest_motion);
-    const Array<std::uint64_t>& parts = scene.figure_parts;
     bool any = false;
-    std::size_t end = 0;
-    for (std::size_t begin = 0; begin < parts.size(); begin = end) {
-        bool pushed = false;
-        for (end = begin; end < parts.size() && figure_of(parts[end]) == figure_of(parts[begin]); ++end) {
-            pushed = pushed || kind_of(parts[end]) == Part::joint || kind_of(parts[end]) == Part::contact;
-        }
-        if (!pushed) {
+    for (std::size_t i = 0; i < scene.figure_ranges.size(); ++i) {
+        const FigureRange& range = scene.figure_ranges[i];
+        if (!is_pushed(range)) {
             continue;
         }
-        Figure figure(scene, &parts[begin], end - begin);
-        const std::int32_t share = figure.share_to_add(least_motion);
+        if (any && Figure(scene, range).knows_changed()) {
+            scene.figure_shares[i] = share_to_add(scene, range, rate, least_speed);
+        }
+        const std::int32_t share = scene.figure_shares[i];
         if (share != 0) {
-            figure.add(share);
+            if (!any) {
+                static_cast<void>(scene.figures_changed.resize(scene.bodies.size())); // within its room
+                std::fill(scene.figures_changed.begin(), scene.figures_changed.end(), std::uint8_t{0});
+            }
             any = true;
+            Figure figure(scene, range);
+            figure.add(share);
+            figure.mark_changed();
         }
     }
     return any;

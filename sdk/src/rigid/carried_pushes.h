@@ -19,10 +19,12 @@
 
 namespace lks {
 
-// Who belongs to which figure in this tick.
-void find_figures(RigidScene& scene);
-// Once joints and contacts are warm-started. `least_speed`: World m/s, what is slower is left alone. False:
-// nothing was changed.
+// Once joints and contacts have pushed again. `least_speed`: World m/s, what is slower is left alone. How
+// much of its pushes a figure is to get more of, 30 fraction bits; into scene.figure_shares.
+std::int32_t share_to_add(RigidScene& scene, const FigureRange& figure, const MotionRate& rate,
+                          std::int64_t least_speed);
+// Adds these shares, figure by figure. Where one has changed what its neighbours know, theirs are found anew.
+// False: nothing was changed.
 bool scale_carried_pushes(RigidScene& scene, const MotionRate& rate, std::int64_t least_speed);
 
 } // namespace lks

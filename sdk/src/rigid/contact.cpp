@@ -71,12 +71,15 @@ public:
             add_push(b_, b, along, p, 1);
         }
     }
+    // What does not move may be others' too, at the same time.
     void apply_to(ContactBodies bodies) const {
-        apply(bodies.a, a_);
-        apply(bodies.b, b_);
+        if (bodies.a.is_awake()) {
+            apply(bodies.a, a_);
+        }
+        if (bodies.b.is_awake()) {
+            apply(bodies.b, b_);
+        }
     }
-    const Move& to_a() const { return a_; }
-    const Move& to_b() const { return b_; }
 
 private:
     Move a_;
@@ -90,17 +93,6 @@ void add_point(const Contact& contact, const ContactPoint& point, const ContactP
         pushes.add(point.across_a[0], point.across_b[0], contact.across[0], push.across[0]);
         pushes.add(point.across_a[1], point.across_b[1], contact.across[1], push.across[1]);
     }
-}
-
-// Of all its points.
-Pushes pushes_of(const Contact& contact) {
-    Pushes pushes;
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        if (contact.points[i].active) {
-            add_point(contact, contact.points[i], contact.points[i].push, pushes);
-        }
-    }
-    return pushes;
 }
 
 std::int64_t grip(std::int64_t push, std::uint32_t friction) {
@@ -260,7 +252,9 @@ bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach,
     return true;
 }
 
-void warm_start(Contact& contact, ContactBodies bodies) {
+void make_rows(Contact& contact, ContactBodies bodies) {
+    Levers middle{{0, 0, 0}, {0, 0, 0}};
+    contact.active_count = 0;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         ContactPoint& point = contact.points[i];
         const std::int64_t gap = gap_now(contact, point, bodies.a, bodies.b);
@@ -272,6 +266,8 @@ void warm_start(Contact& contact, ContactBodies bodies) {
             continue;
         }
         const Levers levers = levers_now(contact, point, bodies.a, bodies.b);
+        middle = {middle.a + levers.a, middle.b + levers.b};
+        ++contact.active_count;
         point.normal_inverse = make_row(bodies, contact.shares, contact.normal, levers.a, levers.b,
                                         point.normal_a, point.normal_b);
         for (int t = 0; t < 2; ++t) {
@@ -279,14 +275,38 @@ void warm_start(Contact& contact, ContactBodies bodies) {
                                                point.across_a[t], point.across_b[t]);
         }
     }
-    pushes_of(contact).apply_to(bodies);
+    const auto n = static_cast<std::int64_t>(contact.active_count);
+    if (n > 1) {
+        const auto share = [n](const Vec3& v) { return Vec3{v.x / n, v.y / n, v.z / n}; };
+        contact.middle_inverse = make_row(bodies, contact.shares, contact.normal, share(middle.a),
+                                          share(middle.b), contact.middle_a, contact.middle_b);
+    }
+}
+
+void push_again(const Contact& contact, Body& body, bool is_a) {
+    if (body.is_awake()) {
+        Move move;
+        add_pushes(contact, is_a, move);
+        apply(body, move);
+    }
 }
 
 void add_pushes(const Contact& contact, bool to_a, Move& move) {
-    const Pushes pushes = pushes_of(contact);
-    const Move& all = to_a ? pushes.to_a() : pushes.to_b();
-    move.shift = move.shift + all.shift;
-    move.half_turn = move.half_turn + all.half_turn;
+    const int sign = to_a ? -1 : 1;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        const ContactPoint& point = contact.points[i];
+        if (!point.active || point.push.normal == 0) {
+            continue;
+        }
+        const auto add = [&](const RowSide& a, const RowSide& b, const Direction& direction, std::int64_t p) {
+            if (p != 0) {
+                add_push(move, to_a ? a : b, fixed::scale(direction, p), p, sign);
+            }
+        };
+        add(point.normal_a, point.normal_b, contact.normal, point.push.normal);
+        add(point.across_a[0], point.across_b[0], contact.across[0], point.push.across[0]);
+        add(point.across_a[1], point.across_b[1], contact.across[1], point.push.across[1]);
+    }
 }
 
 void carry_more(Contact& contact, ContactBodies bodies, std::int32_t share) {
@@ -309,8 +329,40 @@ void carry_more(Contact& contact, ContactBodies bodies, std::int32_t share) {
     pushes.apply_to(bodies);
 }
 
-void project(Contact& contact, ContactBodies bodies) {
+// What all points need alike: one after the other they would turn a body that only has to be lifted.
+void project_middle(Contact& contact, ContactBodies bodies) {
+    std::int64_t sum = 0;
+    std::int64_t least = greatest_push;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
+        const ContactPoint& point = contact.points[i];
+        if (point.active) {
+            sum += gap_now(contact, point, bodies.a, bodies.b);
+            least = std::min(least, point.push.normal);
+        }
+    }
+    const auto n = static_cast<std::int64_t>(contact.active_count);
+    const std::int64_t wanted = -divide(sum / n, contact.middle_inverse) / n;
+    const std::int64_t more = std::clamp<std::int64_t>(wanted, -least, greatest_push);
+    if (more == 0) {
+        return;
+    }
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        ContactPoint& point = contact.points[i];
+        if (point.active) {
+            point.push.normal = std::min(point.push.normal + more, greatest_push);
+        }
+    }
+    Pushes pushes;
+    pushes.add(contact.middle_a, contact.middle_b, contact.normal, n * more);
+    pushes.apply_to(bodies);
+}
+
+void project(Contact& contact, ContactBodies bodies, bool back) {
+    if (contact.active_count > 1) {
+        project_middle(contact, bodies);
+    }
+    for (std::uint32_t k = 0; k < contact.count; ++k) {
+        const std::uint32_t i = back ? contact.count - 1 - k : k;
         ContactPoint& point = contact.points[i];
         if (!point.active) {
             continue;
@@ -375,7 +427,7 @@ void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate
             pushes.apply_to(bodies);
             // Nobody does so behind it.
             for (Body* body : {&bodies.a, &bodies.b}) {
-                if (body->is_dynamic()) {
+                if (body->is_awake()) {
                     body->orientation = normalise(body->orientation);
                 }
             }

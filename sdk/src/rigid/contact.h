@@ -69,6 +69,10 @@ struct Contact {
     bool fast;                // its points are looked for in every substep
     fixed::Direction normal;  // from a to b
     fixed::Direction across[2];
+    // Of the substep: a push at the middle of all active points, where they are several.
+    RowSide middle_a, middle_b;
+    Inverse middle_inverse;
+    std::uint32_t active_count;
     std::uint32_t count;
     ContactPoint points[greatest_point_count];
 };
@@ -88,13 +92,15 @@ void begin_substep(Contact& contact, const Body& a, const Body& b);
 // reverses their approach. True where there was one. Impacts of several points at once are left to
 // restore_speed: a box would take them one after the other and spin.
 bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach, const MotionRate& rate);
-// Once the bodies are predicted: rows, and the pushes of the substep before.
-void warm_start(Contact& contact, ContactBodies bodies);
+// Once the bodies are predicted and joints have pushed: its rows. Then, `push_again`: what they pushed in the
+// substep before, on one of its bodies.
+void make_rows(Contact& contact, ContactBodies bodies);
+void push_again(const Contact& contact, Body& body, bool is_a);
 // What its pushes do to one of its bodies.
 void add_pushes(const Contact& contact, bool to_a, Move& move);
 // Adds a share of its pushes, 30 fraction bits, -1 .. 1.
 void carry_more(Contact& contact, ContactBodies bodies, std::int32_t share);
-void project(Contact& contact, ContactBodies bodies);
+void project(Contact& contact, ContactBodies bodies, bool back);
 // For events: what it pushed in this substep.
 void add_up_pushes(Contact& contact, const MotionRate& rate);
 // Once velocities are known.

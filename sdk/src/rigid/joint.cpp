@@ -155,7 +155,7 @@ bool undo_error(const Joint& joint, Body& a, Body& b) {
     }
     // Nobody does so behind it.
     for (Body* body : {&a, &b}) {
-        if (body->is_dynamic()) {
+        if (body->is_awake()) {
             body->orientation = normalise(body->orientation);
         }
     }

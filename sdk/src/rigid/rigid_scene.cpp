@@ -11,9 +11,10 @@ RigidScene::RigidScene(const lks_allocator& allocator)
       piece_starts(allocator), travels(allocator), overlaps(allocator), boxed(allocator), pairs(allocator),
       contacts(allocator), next_memories(allocator), islands(allocator), tree_roots(allocator),
       tree_links(allocator), tree_bodies(allocator), tree_joints(allocator), articulated(allocator),
-      trees(allocator), figures(allocator), figure_parts(allocator), island_rests(allocator),
-      is_coupled(allocator), coupled(allocator), object_pairs(allocator), held(allocator),
-      loaded_kinds(allocator) {}
+      trees(allocator), figures(allocator), figure_parts(allocator), figure_ranges(allocator),
+      shared_contacts(allocator), figure_shares(allocator), figures_changed(allocator),
+      island_rests(allocator), is_coupled(allocator), coupled(allocator), object_pairs(allocator),
+      held(allocator), loaded_kinds(allocator) {}
 
 bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
     if (body_count == 0) {
@@ -31,6 +32,8 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         islands.reserve(body_count) && figures.reserve(body_count) && tree_roots.reserve(body_count) &&
         tree_bodies.reserve(body_count) && articulated.reserve(body_count) &&
         reserve_figures(body_count, joint_room_, attachment_room_) && island_rests.reserve(body_count) &&
+        shared_contacts.reserve(contact_capacity(body_count)) && figure_shares.reserve(body_count) &&
+        figures_changed.reserve(body_count) &&
         object_pairs.reserve(object_pair_capacity(object_room_, body_count));
     body_room_ = done ? std::max(body_room_, body_count) : body_room_;
     return done;
@@ -63,8 +66,10 @@ bool RigidScene::reserve_objects(std::size_t count) {
 // A contact may belong to two of them.
 bool RigidScene::reserve_figures(std::size_t body_count, std::size_t joint_count,
                                  std::size_t attachment_count) {
-    return figure_parts.reserve(body_count + joint_count + attachment_count +
-                                2 * contact_capacity(body_count));
+    // As many trees as joints at most.
+    return figure_parts.reserve(body_count + 2 * joint_count + attachment_count +
+                                2 * contact_capacity(body_count)) &&
+           figure_ranges.reserve(body_count);
 }
 
 void RigidScene::forget_contacts(std::uint32_t other) {

@@ -9,6 +9,7 @@
 #include "rigid/attachment.h"
 #include "rigid/body.h"
 #include "rigid/contact.h"
+#include "rigid/figure_parts.h"
 #include "rigid/joint.h"
 #include "rigid/overlaps.h"
 #include "solver/slot.h"
@@ -60,9 +61,15 @@ struct RigidScene {
     Array<ArticulatedJoint> tree_joints; // from the roots on
     Array<ArticulatedBody> articulated;  // by body
     Array<ArticulatedTree> trees;
-    Array<std::uint32_t> figures;      // by body: the least index in its figure (rigid/carried_pushes.h)
-    Array<std::uint64_t> figure_parts; // of awake figures, ascending
-    Array<std::uint32_t> island_rests; // by body
+    // Of rigid/figures.h.
+    Array<std::uint32_t> figures;         // by body: the least index in its figure
+    Array<std::uint64_t> figure_parts;    // of awake figures, ascending
+    Array<FigureRange> figure_ranges;     // by awake figure
+    Array<std::uint32_t> shared_contacts; // of two figures, ascending
+    Array<std::int32_t>
+        figure_shares; // by awake figure: what is added to its pushes (rigid/carried_pushes.h)
+    Array<std::uint8_t> figures_changed; // by the least body: while shares are added
+    Array<std::uint32_t> island_rests;   // by body
     // Objects that go through the tick together with bodies and with each other: a flag by slot, empty where
     // there is none; their indices; and whom each may touch: object << 32 | body, ascending.
     Array<std::uint8_t> is_coupled;

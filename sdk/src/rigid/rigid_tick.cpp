@@ -1,15 +1,12 @@
 #include "rigid/rigid_tick.h"
 
-#include <algorithm>
-
 #include "rigid/articulation.h"
-#include "rigid/carried_pushes.h"
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"
-#include "rigid/particle_contact.h"
+#include "rigid/figures.h"
+#include "rigid/rigid_substep.h"
 #include "rigid/sleep.h"
 #include "solver/object_tick.h"
-#include "solver/pins.h"
 #include "solver/world.h"
 
 namespace lks {
@@ -17,13 +14,8 @@ namespace {
 
 class RigidTick {
 public:
-    explicit RigidTick(lks_world& world) : world_(world), scene_(world.rigid), rate_(world.rate) {
-        // What a substep of gravity alone gives a body is no impact.
-        const fixed::Vec3& g = world.gravity;
-        const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
-        least_approach_ = 4 * ((size(g.x) + size(g.y) + size(g.z)) / rate_.substeps_per_second) +
-                          (std::int64_t{1} << world_fraction_bits) / 100;
-    }
+    RigidTick(lks_world& world, Team* team)
+        : world_(world), scene_(world.rigid), rate_(world.rate), team_(team) {}
 
     void run() {
         begin();
@@ -37,65 +29,26 @@ public:
         if (moves) {
             find_contacts(world_);
         }
-        find_figures(scene_);
         find_articulations(scene_);
+        find_figures(scene_);
         // Those that it has woken, too.
         for (Body& body : scene_.bodies) {
             if (body.is_awake()) {
                 body.world_inverse = rotated(body.inverse_inertia, body.rotation);
             }
         }
-        any_restitution_ = false;
-        for (const Contact& contact : scene_.contacts) {
-            any_restitution_ = any_restitution_ || contact.restitution != 0;
-        }
-        for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
-            run_substep(substep);
-        }
+        run_substeps();
         finish();
     }
 
 private:
     bool used(std::size_t index) const { return scene_.body_slots[index].used; }
 
-    ContactBodies bodies_of(const Contact& contact) {
-        return {scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other)};
-    }
-
-    Body& body_a(const Joint& joint) { return scene_.bodies[joint.description.body_a]; }
-    Body& body_b(const Joint& joint) { return scene_.bodies[joint.description.body_b]; }
-
     template <typename Use>
     void for_each_attachment(const Use& use) {
         for (std::size_t i = 0; i < scene_.attachments.size(); ++i) {
             if (scene_.attachment_slots[i].used) {
                 use(scene_.attachments[i], sides_of(world_, scene_.attachments[i]));
-            }
-        }
-    }
-
-    void project_attachments() {
-        for_each_attachment(
-            [](Attachment& attachment, const AttachmentSides& sides) { lks::project(attachment, sides); });
-    }
-
-    Object& coupled_object(std::uint32_t index) { return *world_.objects[index].object; }
-
-    // Cloth and ropes against colliders and bodies, so that a substep ends with nothing inside either.
-    void collide_objects(std::uint32_t substep) {
-        std::size_t pair = 0;
-        for (const std::uint32_t index : scene_.coupled) {
-            Object& object = coupled_object(index);
-            collide_object(world_, object, world_.scratch[0], substep);
-            bool touched = false;
-            for (; pair < scene_.object_pairs.size() && scene_.object_pairs[pair] >> 32 == index; ++pair) {
-                const auto body = static_cast<std::uint32_t>(scene_.object_pairs[pair]);
-                collide_with_body(object, scene_.bodies[body], scene_.descriptions[body],
-                                  held_particles(scene_.held, index, body), rate_, *world_.kernels);
-                touched = true;
-            }
-            if (touched) {
-                place_pins(object, substep, world_.rate.substeps);
             }
         }
     }
@@ -110,16 +63,8 @@ private:
     void for_each_joint(const Use& use) {
         for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
             if (is_at_work(i)) {
-                Joint& joint = scene_.joints[i];
-                use(joint, body_a(joint), body_b(joint));
+                use(scene_.joints[i]);
             }
-        }
-    }
-
-    void project_joint(std::size_t index) {
-        if (is_at_work(index)) {
-            Joint& joint = scene_.joints[index];
-            project(joint, body_a(joint), body_b(joint));
         }
     }
 
@@ -162,133 +107,22 @@ private:
             scene_.ticks.push_reserved(
                 used(i) ? make_body_tick(scene_.descriptions[i], world_.rate, world_.gravity) : BodyTick{});
         }
-        for_each_joint([](Joint& joint, Body&, Body&) {
+        for_each_joint([](Joint& joint) {
             joint.pushed = {0, 0, 0};
             joint.turned = {0, 0, 0};
         });
         for (const std::uint32_t index : scene_.coupled) {
-            begin_object_tick(world_, coupled_object(index), world_.scratch[0]);
+            begin_object_tick(world_, *world_.objects[index].object, world_.scratch[0]);
         }
         for_each_attachment([this](Attachment& attachment, const AttachmentSides& sides) {
             begin_tick(attachment, sides, world_.rate);
         });
     }
 
-    void run_substep(std::uint32_t substep) {
-        for (Contact& contact : scene_.contacts) {
-            if (contact.fast && substep > 1) {
-                find_points_again(world_, contact);
-            }
-            const ContactBodies bodies = bodies_of(contact);
-            begin_substep(contact, bodies.a, bodies.b);
-        }
-        for_each_joint([](Joint& joint, Body& a, Body& b) { lks::begin_substep(joint, a, b); });
-        strike_all();
-        predict(substep);
-        for (const std::uint32_t index : scene_.coupled) {
-            begin_object_substep(world_, coupled_object(index), world_.scratch[0], substep);
-        }
-        for_each_attachment([](Attachment& attachment, const AttachmentSides& sides) {
-            lks::begin_substep(attachment, sides);
-        });
-        factor_articulations(scene_);
-        carry_pushes_on();
-        for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
-            for (const std::uint32_t index : scene_.coupled) {
-                project_object(world_, coupled_object(index), world_.scratch[0]);
-            }
-            // Forward and back: a sweep in one direction only makes tall stacks sway.
-            project_attachments();
-            for_each_joint([](Joint& joint, Body& a, Body& b) { lks::project(joint, a, b); });
-            solve_articulations(scene_);
-            for (Contact& contact : scene_.contacts) {
-                project(contact, bodies_of(contact));
-            }
-            for (std::size_t i = scene_.contacts.size(); i-- > 0;) {
-                project(scene_.contacts[i], bodies_of(scene_.contacts[i]));
-            }
-            for (std::size_t i = scene_.joints.size(); i-- > 0;) {
-                project_joint(i);
-            }
-            solve_articulations(scene_);
-            project_attachments();
-            collide_objects(substep);
-        }
-        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-            if (used(i) && scene_.bodies[i].is_awake()) {
-                finish_body(scene_.bodies[i], scene_.descriptions[i], rate_, world_.counters.speed_clamps);
-            }
-        }
-        if (world_.event_log.wants_contacts()) {
-            for (Contact& contact : scene_.contacts) {
-                add_up_pushes(contact, rate_);
-            }
-        }
-        for (const Contact& contact : scene_.contacts) {
-            restore_speed(contact, bodies_of(contact), least_approach_);
-        }
-        for_each_joint([](Joint& joint, Body& a, Body& b) {
-            add_up_pushes(joint, a, b);
-            if (!joint.in_tree) {
-                undo_error(joint, a, b);
-            }
-        });
-        for (const Contact& contact : scene_.contacts) {
-            undo_overlap(contact, bodies_of(contact), rate_);
-        }
-        undo_articulations(scene_);
-        for_each_attachment(
-            [](Attachment& attachment, const AttachmentSides&) { finish_substep(attachment); });
-    }
-
-    void carry_pushes_on() {
-        for (Body& body : scene_.bodies) {
-            body.uncarried_position = body.position;
-            body.uncarried_orientation = body.orientation;
-        }
-        for_each_joint([](Joint& joint, Body& a, Body& b) { lks::warm_start(joint, a, b); });
-        for (Contact& contact : scene_.contacts) {
-            warm_start(contact, bodies_of(contact));
-        }
-        solve_articulations(scene_);
-        if (scale_carried_pushes(scene_, rate_, 2 * least_approach_)) {
-            solve_articulations(scene_);
-        }
-    }
-
-    // An impact may cause the next one: forward and back, until nothing strikes any more.
-    void strike_all() {
-        if (!any_restitution_) {
-            return;
-        }
-        constexpr int most_passes = 8;
-        bool again = true;
-        for (int pass = 0; pass < most_passes && again; ++pass) {
-            again = false;
-            for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
-                Contact& contact = scene_.contacts[pass % 2 == 0 ? i : scene_.contacts.size() - 1 - i];
-                again = strike(contact, bodies_of(contact), least_approach_, rate_) || again;
-            }
-        }
-    }
-
-    void predict(std::uint32_t substep) {
-        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-            if (!used(i) || scene_.bodies[i].asleep != 0) {
-                continue;
-            }
-            Body& body = scene_.bodies[i];
-            if (body.is_dynamic()) {
-                predict_body(body, scene_.descriptions[i], scene_.ticks[i], rate_,
-                             world_.counters.speed_clamps);
-            } else {
-                place_kinematic(body, substep, world_.rate.substeps, rate_);
-            }
-        }
-        for (std::size_t i = 0; i < world_.colliders.size(); ++i) {
-            if (world_.colliders[i].used && world_.colliders[i].collider.moves()) {
-                place_kinematic(scene_.collider_bodies[i], substep, world_.rate.substeps, rate_);
-            }
+    void run_substeps() {
+        RigidSubstep rigid_substep(world_, team_);
+        for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
+            rigid_substep.run(substep);
         }
     }
 
@@ -392,15 +226,24 @@ private:
     lks_world& world_;
     RigidScene& scene_;
     MotionRate rate_;
-    std::int64_t least_approach_;
-    bool any_restitution_ = false;
+    Team* team_;
 };
 
 } // namespace
 
-void run_rigid_tick(lks_world& world) {
+bool bodies_need_team(const lks_world& world) {
+    // A substep of so many takes longer than its stages do by themselves.
+    constexpr std::size_t worth_waking = 48;
+    std::size_t awake = 0;
+    for (const Body& body : world.rigid.bodies) {
+        awake += body.is_awake() ? 1u : 0u;
+    }
+    return awake >= worth_waking;
+}
+
+void run_rigid_tick(lks_world& world, Team* team) {
     if (!world.rigid.empty()) {
-        RigidTick(world).run();
+        RigidTick(world, team).run();
         record_sleep(world);
     }
 }

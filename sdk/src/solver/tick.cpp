@@ -72,10 +72,7 @@ void run_objects_by_team(lks_world& world, Team& team) {
     }
 }
 
-bool needs_team(const lks_world& world) {
-    if (world.worker_count < 2) {
-        return false;
-    }
+bool objects_need_team(const lks_world& world) {
     std::uint64_t total = 0;
     std::uint32_t count = 0;
     bool large = false;
@@ -115,14 +112,21 @@ void run_tick(lks_world& world) {
         slot.collider.previous_rotation = slot.collider.rotation;
     }
     find_coupled(world);
-    if (needs_team(world)) {
+    const bool for_objects = world.worker_count > 1 && objects_need_team(world);
+    const bool for_bodies = world.worker_count > 1 && bodies_need_team(world);
+    Team& team = world.helpers.team();
+    if (for_objects || for_bodies) {
         world.helpers.begin();
-        run_objects_by_team(world, world.helpers.team());
-        world.helpers.end();
+    }
+    if (for_objects) {
+        run_objects_by_team(world, team);
     } else {
         run_objects(world);
     }
-    run_rigid_tick(world);
+    run_rigid_tick(world, for_bodies ? &team : nullptr);
+    if (for_objects || for_bodies) {
+        world.helpers.end();
+    }
     collect_counters(world);
     finish_collider_motion(world);
     ++world.tick;

@@ -1,0 +1,38 @@
+// What belongs to a figure: bodies that joints hold together, and what pushes them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lks {
+
+// In the order of its work. Shared contacts are those of two figures, and parts of both.
+enum class Part : std::uint32_t { body, joint, tree, contact, shared_contact, attachment };
+inline constexpr std::size_t part_kinds = 6;
+
+// Figure, kind and index, so that sorted names stand figure by figure and kind by kind.
+constexpr std::uint64_t name_part(std::uint32_t figure, Part kind, std::size_t index) {
+    return std::uint64_t{figure} << 35 | std::uint64_t{static_cast<std::uint32_t>(kind)} << 32 | index;
+}
+constexpr std::uint32_t figure_of(std::uint64_t part) {
+    return static_cast<std::uint32_t>(part >> 35);
+}
+constexpr Part kind_of(std::uint64_t part) {
+    return static_cast<Part>(part >> 32 & 7);
+}
+constexpr std::uint32_t index_of(std::uint64_t part) {
+    return static_cast<std::uint32_t>(part);
+}
+
+// Where the parts of each kind begin among all parts, and where the last ones end.
+struct FigureRange {
+    std::uint32_t begins[part_kinds + 1];
+
+    std::uint32_t begin() const { return begins[0]; }
+    std::uint32_t count(Part kind) const {
+        const auto k = static_cast<std::size_t>(kind);
+        return begins[k + 1] - begins[k];
+    }
+};
+
+} // namespace lks

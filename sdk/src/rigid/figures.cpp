@@ -1,0 +1,77 @@
+#include "rigid/figures.h"
+
+#include <algorithm>
+
+#include "rigid/body_roots.h"
+
+namespace lks {
+namespace {
+
+void find_ranges(RigidScene& scene) {
+    const Array<std::uint64_t>& parts = scene.figure_parts;
+    scene.figure_ranges.clear();
+    for (std::uint32_t i = 0; i < parts.size();) {
+        const std::uint32_t figure = figure_of(parts[i]);
+        FigureRange range{};
+        for (std::size_t kind = 0; kind < part_kinds; ++kind) {
+            range.begins[kind] = i;
+            while (i < parts.size() && figure_of(parts[i]) == figure &&
+                   kind_of(parts[i]) == static_cast<Part>(kind)) {
+                ++i;
+            }
+        }
+        range.begins[part_kinds] = i;
+        scene.figure_ranges.push_reserved(range);
+    }
+}
+
+} // namespace
+
+void find_figures(RigidScene& scene) {
+    BodyRoots roots(scene, scene.figures);
+    roots.join_by_joints();
+    scene.figure_parts.clear();
+    const auto add = [&](std::uint32_t body, Part kind, std::size_t index) {
+        if (scene.bodies[body].is_awake()) {
+            scene.figure_parts.push_reserved(name_part(roots.root(body), kind, index));
+        }
+    };
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        scene.figures[i] = roots.root(i);
+        if (scene.body_slots[i].used) {
+            add(i, Part::body, i);
+        }
+    }
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        if (scene.joint_slots[i].used) {
+            const JointDescription& joint = scene.joints[i].description;
+            add(scene.bodies[joint.body_a].is_awake() ? joint.body_a : joint.body_b, Part::joint, i);
+        }
+    }
+    for (std::size_t i = 0; i < scene.trees.size(); ++i) {
+        add(scene.tree_bodies[scene.trees[i].first_body], Part::tree, i);
+    }
+    scene.shared_contacts.clear();
+    for (std::uint32_t i = 0; i < scene.contacts.size(); ++i) {
+        const ContactKey& key = scene.contacts[i].key;
+        const bool a_moves = scene.bodies[key.body_a].is_awake();
+        const bool b_moves = key.other < other_is_collider && scene.bodies[key.other].is_awake();
+        if (a_moves && b_moves && roots.root(key.body_a) != roots.root(key.other)) {
+            add(key.body_a, Part::shared_contact, i);
+            add(key.other, Part::shared_contact, i);
+            scene.shared_contacts.push_reserved(i);
+        } else if (a_moves || b_moves) {
+            add(a_moves ? key.body_a : key.other, Part::contact, i);
+        }
+    }
+    for (std::size_t i = 0; i < scene.attachments.size(); ++i) {
+        const AttachmentDescription& d = scene.attachments[i].description;
+        if (scene.attachment_slots[i].used && d.kind == LKS_ATTACHMENT_TO_BODY) {
+            add(d.other, Part::attachment, i);
+        }
+    }
+    std::sort(scene.figure_parts.begin(), scene.figure_parts.end());
+    find_ranges(scene);
+}
+
+} // namespace lks

@@ -1,0 +1,28 @@
+// Figures: bodies that joints hold together, with their joints, contacts and attachments. Shared contacts,
+// and nothing else in a substep, work on two of them.
+#pragma once
+
+#include "rigid/rigid_scene.h"
+
+namespace lks {
+
+// Of what is awake in this tick, in the order of the least bodies. After find_articulations.
+void find_figures(RigidScene& scene);
+
+// Calls use(index) for each of its parts of one kind.
+template <typename Use>
+void for_each_part(const RigidScene& scene, const FigureRange& figure, Part kind, const Use& use) {
+    const auto k = static_cast<std::size_t>(kind);
+    for (std::uint32_t i = figure.begins[k]; i < figure.begins[k + 1]; ++i) {
+        use(index_of(scene.figure_parts[i]));
+    }
+}
+template <typename Use>
+void for_each_part_back(const RigidScene& scene, const FigureRange& figure, Part kind, const Use& use) {
+    const auto k = static_cast<std::size_t>(kind);
+    for (std::uint32_t i = figure.begins[k + 1]; i-- > figure.begins[k];) {
+        use(index_of(scene.figure_parts[i]));
+    }
+}
+
+} // namespace lks

@@ -1,0 +1,303 @@
+#include "rigid/rigid_substep.h"
+
+#include <algorithm>
+
+#include "rigid/articulation.h"
+#include "rigid/carried_pushes.h"
+#include "rigid/contact_search.h"
+#include "rigid/coupling.h"
+#include "rigid/figures.h"
+#include "rigid/particle_contact.h"
+#include "solver/object_tick.h"
+#include "solver/pins.h"
+#include "solver/world.h"
+#include "threads/blocks.h"
+
+namespace lks {
+namespace {
+
+// Some tens of microseconds of work: enough to be worth another thread's while.
+constexpr std::uint32_t bodies_a_block = 64;
+constexpr std::uint32_t contacts_a_block = 64;
+constexpr std::uint32_t parts_a_block = 128; // of figures
+
+Object& coupled_object(lks_world& world, std::uint32_t index) {
+    return *world.objects[index].object;
+}
+
+} // namespace
+
+RigidSubstep::RigidSubstep(lks_world& world, Team* team)
+    : world_(world), scene_(world.rigid), team_(team), rate_(world.rate) {
+    // What a substep of gravity alone gives a body is no impact.
+    const fixed::Vec3& g = world.gravity;
+    const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
+    least_approach_ = 4 * ((size(g.x) + size(g.y) + size(g.z)) / rate_.substeps_per_second) +
+                      (std::int64_t{1} << world_fraction_bits) / 100;
+    for (const Contact& contact : scene_.contacts) {
+        any_restitution_ = any_restitution_ || contact.restitution != 0;
+    }
+}
+
+void RigidSubstep::run(std::uint32_t substep) {
+    begin(substep);
+    strike_all();
+    predict(substep);
+    carry_pushes_on();
+    for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
+        iterate(substep);
+    }
+    finish();
+}
+
+ContactBodies RigidSubstep::bodies_of(const Contact& contact) {
+    return {scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other)};
+}
+
+template <typename Use>
+void RigidSubstep::for_each_attachment(const Use& use) {
+    for (std::size_t i = 0; i < scene_.attachments.size(); ++i) {
+        if (scene_.attachment_slots[i].used) {
+            use(scene_.attachments[i], sides_of(world_, scene_.attachments[i]));
+        }
+    }
+}
+
+// Each by itself: use(contact).
+template <typename Use>
+void RigidSubstep::in_contacts(const Use& use) {
+    run_blocks(team_, static_cast<std::uint32_t>(scene_.contacts.size()), contacts_a_block,
+               [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                   for (std::uint32_t i = first; i < end; ++i) {
+                       use(scene_.contacts[i]);
+                   }
+               });
+}
+
+// use(figure)
+template <typename Use>
+void RigidSubstep::in_figures(const Use& use) {
+    const Array<FigureRange>& figures = scene_.figure_ranges;
+    // A block has the figures whose parts begin in it.
+    run_blocks(team_, static_cast<std::uint32_t>(scene_.figure_parts.size()), parts_a_block,
+               [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                   const FigureRange* figure = std::lower_bound(
+                       figures.begin(), figures.end(), first,
+                       [](const FigureRange& range, std::uint32_t part) { return range.begin() < part; });
+                   for (; figure != figures.end() && figure->begin() < end; ++figure) {
+                       use(*figure);
+                   }
+               });
+}
+
+template <typename Use>
+void RigidSubstep::for_each_joint(const FigureRange& figure, const Use& use) {
+    for_each_part(scene_, figure, Part::joint, [&](std::uint32_t i) {
+        Joint& joint = scene_.joints[i];
+        use(joint, scene_.bodies[joint.description.body_a], scene_.bodies[joint.description.body_b]);
+    });
+}
+
+void RigidSubstep::solve_trees(const FigureRange& figure) {
+    for_each_part(scene_, figure, Part::tree,
+                  [this](std::uint32_t i) { solve_articulation(scene_, scene_.trees[i]); });
+}
+
+void RigidSubstep::begin(std::uint32_t substep) {
+    in_contacts([&](Contact& contact) {
+        if (contact.fast && substep > 1) {
+            find_points_again(world_, contact);
+        }
+        const ContactBodies bodies = bodies_of(contact);
+        begin_substep(contact, bodies.a, bodies.b);
+    });
+    in_figures([this](const FigureRange& figure) {
+        for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::begin_substep(joint, a, b); });
+    });
+}
+
+// An impact may cause the next one: forward and back, until nothing strikes any more.
+void RigidSubstep::strike_all() {
+    if (!any_restitution_) {
+        return;
+    }
+    constexpr int most_passes = 8;
+    bool again = true;
+    for (int pass = 0; pass < most_passes && again; ++pass) {
+        again = false;
+        for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
+            Contact& contact = scene_.contacts[pass % 2 == 0 ? i : scene_.contacts.size() - 1 - i];
+            again = strike(contact, bodies_of(contact), least_approach_, rate_) || again;
+        }
+    }
+}
+
+void RigidSubstep::predict(std::uint32_t substep) {
+    run_blocks(team_, static_cast<std::uint32_t>(scene_.bodies.size()), bodies_a_block,
+               [&](std::uint32_t first, std::uint32_t end, std::uint32_t worker) {
+                   for (std::uint32_t i = first; i < end; ++i) {
+                       Body& body = scene_.bodies[i];
+                       if (body.is_awake()) {
+                           predict_body(body, scene_.descriptions[i], scene_.ticks[i], rate_,
+                                        world_.scratch[worker].counters.speed_clamps);
+                           body.uncarried_position = body.position;
+                           body.uncarried_orientation = body.orientation;
+                       } else if (scene_.body_slots[i].used && !body.is_dynamic()) {
+                           place_kinematic(body, substep, world_.rate.substeps, rate_);
+                       }
+                   }
+               });
+    for (std::size_t i = 0; i < world_.colliders.size(); ++i) {
+        if (world_.colliders[i].used && world_.colliders[i].collider.moves()) {
+            place_kinematic(scene_.collider_bodies[i], substep, world_.rate.substeps, rate_);
+        }
+    }
+    for (const std::uint32_t index : scene_.coupled) {
+        begin_object_substep(world_, coupled_object(world_, index), world_.scratch[0], substep);
+    }
+    for_each_attachment(
+        [](Attachment& attachment, const AttachmentSides& sides) { lks::begin_substep(attachment, sides); });
+}
+
+void RigidSubstep::carry_pushes_on() {
+    in_figures([this](const FigureRange& figure) {
+        for_each_part(scene_, figure, Part::tree,
+                      [this](std::uint32_t i) { factor_articulation(scene_, scene_.trees[i]); });
+        for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::warm_start(joint, a, b); });
+    });
+    in_contacts([this](Contact& contact) { make_rows(contact, bodies_of(contact)); });
+    in_figures([this](const FigureRange& figure) {
+        push_contacts_again(figure);
+        solve_trees(figure);
+    });
+    const std::int64_t least_speed = 2 * least_approach_;
+    static_cast<void>(scene_.figure_shares.resize(scene_.figure_ranges.size())); // within its room
+    in_figures([&](const FigureRange& figure) {
+        scene_.figure_shares[static_cast<std::size_t>(&figure - scene_.figure_ranges.begin())] =
+            share_to_add(scene_, figure, rate_, least_speed);
+    });
+    if (scale_carried_pushes(scene_, rate_, least_speed)) {
+        in_figures([this](const FigureRange& figure) { solve_trees(figure); });
+    }
+}
+
+// Each body those that are its figure's: the other one of a shared contact may be at work.
+void RigidSubstep::push_contacts_again(const FigureRange& figure) {
+    for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) {
+        const Contact& contact = scene_.contacts[i];
+        const ContactBodies bodies = bodies_of(contact);
+        push_again(contact, bodies.a, true);
+        push_again(contact, bodies.b, false);
+    });
+    const std::uint32_t own = figure_of(scene_.figure_parts[figure.begin()]);
+    for_each_part(scene_, figure, Part::shared_contact, [&](std::uint32_t i) {
+        const Contact& contact = scene_.contacts[i];
+        const ContactBodies bodies = bodies_of(contact);
+        const bool is_a = scene_.figures[contact.key.body_a] == own;
+        push_again(contact, is_a ? bodies.a : bodies.b, is_a);
+    });
+}
+
+void RigidSubstep::project_contact(std::uint32_t index, bool back) {
+    Contact& contact = scene_.contacts[index];
+    project(contact, bodies_of(contact), back);
+}
+
+void RigidSubstep::iterate(std::uint32_t substep) {
+    for (const std::uint32_t index : scene_.coupled) {
+        project_object(world_, coupled_object(world_, index), world_.scratch[0]);
+    }
+    // Forward and back: a sweep in one direction only makes tall stacks sway.
+    project_attachments();
+    in_figures([this](const FigureRange& figure) {
+        for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::project(joint, a, b); });
+        solve_trees(figure);
+        for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) { project_contact(i, false); });
+    });
+    const Array<std::uint32_t>& shared = scene_.shared_contacts;
+    for (std::size_t i = 0; i < shared.size(); ++i) {
+        project_contact(shared[i], false);
+    }
+    for (std::size_t i = shared.size(); i-- > 0;) {
+        project_contact(shared[i], true);
+    }
+    in_figures([this](const FigureRange& figure) {
+        for_each_part_back(scene_, figure, Part::contact,
+                           [this](std::uint32_t i) { project_contact(i, true); });
+        for_each_part_back(scene_, figure, Part::joint, [this](std::uint32_t i) {
+            Joint& joint = scene_.joints[i];
+            lks::project(joint, scene_.bodies[joint.description.body_a],
+                         scene_.bodies[joint.description.body_b]);
+        });
+        solve_trees(figure);
+    });
+    project_attachments();
+    collide_objects(substep);
+}
+
+void RigidSubstep::project_attachments() {
+    for_each_attachment(
+        [](Attachment& attachment, const AttachmentSides& sides) { lks::project(attachment, sides); });
+}
+
+// Cloth and ropes against colliders and bodies, so that a substep ends with nothing inside either.
+void RigidSubstep::collide_objects(std::uint32_t substep) {
+    std::size_t pair = 0;
+    for (const std::uint32_t index : scene_.coupled) {
+        Object& object = coupled_object(world_, index);
+        collide_object(world_, object, world_.scratch[0], substep);
+        bool touched = false;
+        for (; pair < scene_.object_pairs.size() && scene_.object_pairs[pair] >> 32 == index; ++pair) {
+            const auto body = static_cast<std::uint32_t>(scene_.object_pairs[pair]);
+            collide_with_body(object, scene_.bodies[body], scene_.descriptions[body],
+                              held_particles(scene_.held, index, body), rate_, *world_.kernels);
+            touched = true;
+        }
+        if (touched) {
+            place_pins(object, substep, world_.rate.substeps);
+        }
+    }
+}
+
+void RigidSubstep::finish() {
+    run_blocks(team_, static_cast<std::uint32_t>(scene_.bodies.size()), bodies_a_block,
+               [&](std::uint32_t first, std::uint32_t end, std::uint32_t worker) {
+                   for (std::uint32_t i = first; i < end; ++i) {
+                       if (scene_.bodies[i].is_awake()) {
+                           finish_body(scene_.bodies[i], scene_.descriptions[i], rate_,
+                                       world_.scratch[worker].counters.speed_clamps);
+                       }
+                   }
+               });
+    if (world_.event_log.wants_contacts()) {
+        in_contacts([this](Contact& contact) { add_up_pushes(contact, rate_); });
+    }
+    if (any_restitution_) {
+        for (const Contact& contact : scene_.contacts) {
+            restore_speed(contact, bodies_of(contact), least_approach_);
+        }
+    }
+    const auto undo = [this](std::uint32_t i) {
+        const Contact& contact = scene_.contacts[i];
+        undo_overlap(contact, bodies_of(contact), rate_);
+    };
+    in_figures([&](const FigureRange& figure) {
+        for_each_joint(figure, [](Joint& joint, Body& a, Body& b) {
+            add_up_pushes(joint, a, b);
+            if (!joint.in_tree) {
+                undo_error(joint, a, b);
+            }
+        });
+        for_each_part(scene_, figure, Part::contact, undo);
+    });
+    for (const std::uint32_t i : scene_.shared_contacts) {
+        undo(i);
+    }
+    in_figures([this](const FigureRange& figure) {
+        for_each_part(scene_, figure, Part::tree,
+                      [this](std::uint32_t i) { undo_articulation(scene_, scene_.trees[i]); });
+    });
+    for_each_attachment([](Attachment& attachment, const AttachmentSides&) { finish_substep(attachment); });
+}
+
+} // namespace lks

@@ -1,0 +1,56 @@
+// One substep of all bodies, and of the objects that go with them.
+//
+// Its stages are cut into blocks that a team works off at the same time: bodies and contacts where each is
+// looked at by itself, figures (rigid/figures.h) where something is pushed. Figures have nothing in common
+// that moves but shared contacts, and those the caller sweeps alone, so that the bits are the same with any
+// number of workers.
+#pragma once
+
+#include "rigid/body_motion.h"
+#include "rigid/rigid_scene.h"
+#include "threads/team.h"
+
+struct lks_world;
+
+namespace lks {
+
+class RigidSubstep {
+public:
+    // team: null, or who helps. Once contacts, trees and figures of the tick are known.
+    RigidSubstep(lks_world& world, Team* team);
+
+    // 1 .. substeps.
+    void run(std::uint32_t substep);
+
+private:
+    ContactBodies bodies_of(const Contact& contact);
+    template <typename Use>
+    void for_each_attachment(const Use& use);
+    template <typename Use>
+    void in_contacts(const Use& use);
+    template <typename Use>
+    void in_figures(const Use& use);
+    template <typename Use>
+    void for_each_joint(const FigureRange& figure, const Use& use);
+    void solve_trees(const FigureRange& figure);
+
+    void begin(std::uint32_t substep);
+    void strike_all();
+    void predict(std::uint32_t substep);
+    void carry_pushes_on();
+    void push_contacts_again(const FigureRange& figure);
+    void project_contact(std::uint32_t index, bool back);
+    void iterate(std::uint32_t substep);
+    void project_attachments();
+    void collide_objects(std::uint32_t substep);
+    void finish();
+
+    lks_world& world_;
+    RigidScene& scene_;
+    Team* team_;
+    MotionRate rate_;
+    std::int64_t least_approach_;
+    bool any_restitution_ = false;
+};
+
+} // namespace lks
