@@ -40,7 +40,8 @@ struct Small {
         world.step(3);
     }
 
-    // A free slot between used ones, a joint of each kind, boxes that push each other, one that is kinematic.
+    // A free slot between used ones, a joint of each kind, boxes that push each other, one that is kinematic,
+    // one of every shape.
     void add_bodies() {
         lks_body_id bodies[6];
         for (int i = 0; i < 6; ++i) {
@@ -65,8 +66,19 @@ struct Small {
         const lks_body_id right = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(30, 0.599, 0));
         REQUIRE(lks_world_has_body(world, left) == 1);
         REQUIRE(lks_world_has_body(world, right) == 1);
+        add_body_of_every_shape();
         REQUIRE(lks_world_remove_body(world, bodies[0]) == LKS_OK);
         attach(right);
+    }
+
+    void add_body_of_every_shape() {
+        const lks_body_shape shapes[] = {ball_shape(0.2), capsule_shape(0.1, 0.3), box_shape(0.2, 0.1, 0.3)};
+        lks_body_def def = lks_default_body_def();
+        def.shapes = shapes;
+        def.shape_count = 3;
+        def.transform.position = fixed(40, 0.29, 0);
+        lks_body_id id{};
+        REQUIRE(lks_world_add_body(world, &def, &id) == LKS_OK);
     }
 
     // A free slot between one of each kind.
@@ -169,6 +181,34 @@ TEST_CASE("images cut anywhere are refused behind a right checksum and size") {
         CHECK(survives(small, part, accepted));
     }
     CHECK(accepted == 0);
+}
+
+TEST_CASE("an image that is refused at its end has changed nothing, not even what is derived") {
+    Small other;
+    const lks_body_id body{2, 1};
+    REQUIRE(lks_world_remove_body(other.world, body) == LKS_OK);
+    lks_body_def def = lks_default_body_def();
+    def.mass = fixed(50);
+    add_body(other.world, ball_shape(0.3), fixed(20, 1, 0), def);
+    const lks_joint_id hinge{1, 1};
+    CHECK(lks_world_has_joint(other.world, hinge) == 0);
+    add_joint(other.world, lks_default_joint_def(), {3, 1}, {4, 1});
+    other.world.step(3);
+    Image bad = other.world.save();
+    const Image good = bad;
+    put_u64(bad, bad.size() - 8, ~std::uint64_t{0} >> 1);
+    put_right_checksum(bad);
+
+    Small small;
+    Small twin;
+    REQUIRE(lks_world_load(small.world, bad.data(), bad.size()) == LKS_ERROR_CORRUPT_IMAGE);
+    for (int tick = 0; tick < 60; ++tick) {
+        REQUIRE(small.world.hash() == twin.world.hash());
+        small.world.step();
+        twin.world.step();
+    }
+    CHECK(lks_world_load(small.world, good.data(), good.size()) == LKS_OK);
+    CHECK(small.world.save() == good);
 }
 
 TEST_CASE("images with several random changes behind a right checksum are survived") {

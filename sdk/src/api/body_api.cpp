@@ -39,6 +39,7 @@ void change_kind(lks_world& world, std::uint32_t index, std::uint32_t kind) {
     Body& body = scene.bodies[index];
     wake_neighbours(scene, index);
     scene.forget_contacts(index);
+    scene.definitions[index].kind = kind;
     scene.descriptions[index].kind = kind;
     apply_description(body, scene.descriptions[index]);
     wake(body);
@@ -127,9 +128,11 @@ lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_bod
     if (index == scene.body_slots.size()) {
         scene.body_slots.push_reserved(Slot{1, false});
         scene.bodies.push_reserved(Body{});
+        scene.definitions.push_reserved(BodyDefinition{});
         scene.descriptions.push_reserved(BodyDescription{});
     }
-    scene.descriptions[index] = describe_body(*def);
+    scene.definitions[index] = plain_definition(*def);
+    scene.descriptions[index] = describe_body(scene.definitions[index]);
     scene.bodies[index] = make_body(scene.descriptions[index], *def);
     scene.body_slots[index].used = true;
     *body = {index, scene.body_slots[index].generation};
@@ -146,6 +149,7 @@ lks_result lks_world_remove_body(lks_world* world, lks_body_id body) {
     forget_joints(scene, body.index);
     forget_attachments(scene, body.index, false);
     scene.bodies[body.index] = Body{};
+    scene.definitions[body.index] = BodyDefinition{};
     scene.descriptions[body.index] = BodyDescription{};
     free_slot(scene.body_slots[body.index]);
     return LKS_OK;

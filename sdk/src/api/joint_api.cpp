@@ -36,7 +36,6 @@ JointDescription describe(const lks_joint_def& def, const RigidScene& scene) {
     d.friction = def.friction;
     d.break_force = def.break_force;
     d.break_torque = def.break_torque;
-    d.motor_target = fixed::identity_rotation();
     return d;
 }
 
@@ -58,12 +57,12 @@ void set_motor(lks_world& world, Joint& joint, const lks_motor& motor) {
     JointDescription& d = joint.description;
     const fixed::Rotation target = fixed::normalise(to_rotation(motor.target));
     if (d.motor_torque == motor.max_torque && d.motor_response == motor.response &&
-        d.motor_target == target) {
+        joint.motor_target == target) {
         return;
     }
     d.motor_torque = motor.max_torque;
     d.motor_response = motor.response;
-    d.motor_target = target;
+    joint.motor_target = target;
     Body& a = world.rigid.bodies[d.body_a];
     Body& b = world.rigid.bodies[d.body_b];
     joint.constants = make_joint_constants(d, a, b, world.rate);
@@ -119,6 +118,7 @@ lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_j
     }
     Joint& made = scene.joints[index];
     made.description = describe(*def, scene);
+    made.motor_target = fixed::identity_rotation();
     const JointBodies bodies = bodies_of(*world, made);
     made.constants = make_joint_constants(made.description, bodies.a, bodies.b, world->rate);
     scene.joint_slots[index].used = true;
@@ -221,8 +221,9 @@ lks_result lks_joint_motor(const lks_world* world, lks_joint_id joint, lks_motor
     if (motor == nullptr) {
         return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_joint_motor", "motor"));
     }
-    const JointDescription& d = world->rigid.joints[joint.index].description;
-    const fixed::Rotation& q = d.motor_target;
+    const Joint& found = world->rigid.joints[joint.index];
+    const JointDescription& d = found.description;
+    const fixed::Rotation& q = found.motor_target;
     *motor = {d.motor_torque, d.motor_response, {q.x, q.y, q.z, q.w}};
     return LKS_OK;
 }

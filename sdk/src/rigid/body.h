@@ -25,15 +25,14 @@ struct Surface {
     std::int64_t restitution;
 };
 
-// What a body is: fixed from the start.
+// What a body is: what follows from its definition (rigid/body_definition.h).
 struct BodyDescription {
     std::uint32_t kind; // lks_body_kind
     std::uint32_t shape_count;
     BodyShape shapes[LKS_MAX_BODY_SHAPES]; // around the centre of mass
     MassProperties properties;
-    fixed::Vec3 centre;      // World: the centre of mass in the frame that the game gave
-    std::int64_t given_mass; // World; 0: as the densities say
-    std::int64_t radius;     // World: of a ball about the centre of mass with all shapes in it
+    fixed::Vec3 centre;  // World: the centre of mass in the frame that the game gave
+    std::int64_t radius; // World: of a ball about the centre of mass with all shapes in it
     Surface surface;
     lks_filter filter;
     std::int64_t gravity_factor;
@@ -42,28 +41,29 @@ struct BodyDescription {
     std::uint32_t never_sleeps; // 0 or 1
 };
 
-// Where and how fast it is, and what every constraint on it needs.
-struct Body {
+// Where and how fast it is. Images and hashes have it in this order.
+struct BodyState {
+    fixed::Vec3 position; // World, of the centre of mass
+    // Kinematic: at the end of the next tick.
+    fixed::Vec3 target_position;
+    // Sleep (rigid/sleep.h): where it has stayed, for how many ticks, and whether it is asleep.
+    fixed::Vec3 rest_position;
+    Quaternion orientation;
+    Quaternion target_orientation;
+    fixed::Vec3 velocity;         // World, m/s
+    fixed::Vec3 angular_velocity; // World, rad/s, in world axes
+    Quaternion rest_orientation;
+    std::uint32_t rest_ticks;
+    std::uint32_t asleep; // 0 or 1
+};
+
+// And what every constraint on it needs.
+struct Body : BodyState {
     // Copied from the description.
     InverseMass inverse_mass; // zero: kinematic
     std::int32_t scale;
     std::int32_t inverse_shift;
     SymmetricMatrix inverse_inertia; // in its own axes
-
-    // State.
-    fixed::Vec3 position; // World, of the centre of mass
-    Quaternion orientation;
-    fixed::Vec3 velocity;         // World, m/s
-    fixed::Vec3 angular_velocity; // World, rad/s, in world axes
-    // Kinematic: at the end of the next tick.
-    fixed::Vec3 target_position;
-    Quaternion target_orientation;
-
-    // Sleep (rigid/sleep.h): where it has stayed, for how many ticks, and whether it is asleep.
-    fixed::Vec3 rest_position;
-    Quaternion rest_orientation;
-    std::uint32_t rest_ticks;
-    std::uint32_t asleep; // 0 or 1
 
     // For views: at the tick before.
     fixed::Vec3 previous_position;

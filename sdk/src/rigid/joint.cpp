@@ -91,7 +91,9 @@ Vec3 joint_offset(const Joint& joint, const Body& a, const Body& b) {
 void forget_pushes(Joint& joint) {
     const JointDescription description = joint.description;
     const JointConstants constants = joint.constants;
+    const fixed::Rotation motor_target = joint.motor_target;
     joint = Joint{};
+    joint.motor_target = motor_target;
     joint.description = description;
     joint.constants = constants;
 }

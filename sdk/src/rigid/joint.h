@@ -47,9 +47,8 @@ struct JointDescription {
     std::int64_t break_force;        // World, N; 0: never
     std::int64_t break_torque;       // World, N·m; 0: never
     // Of the motor.
-    std::int64_t motor_torque;    // World, N·m; 0: off
-    std::int64_t motor_response;  // World, s
-    fixed::Rotation motor_target; // b's frame in a's
+    std::int64_t motor_torque;   // World, N·m; 0: off
+    std::int64_t motor_response; // World, s
 };
 
 // What follows from the description and the bodies' masses.
@@ -78,11 +77,10 @@ struct JointConstants {
     int reach;                // of turns (rigid/pair.h)
 };
 
-struct Joint {
-    JointDescription description;
-    JointConstants constants;
-
-    // State: what it pushed in the last substep, World. The next one begins with it.
+// What changes. Images and hashes have it in this order, behind the description.
+struct JointState {
+    fixed::Rotation motor_target; // b's frame in a's
+    // What it pushed in the last substep, World. The next one begins with it.
     fixed::Vec3 push;        // from a to b, a length
     fixed::Vec3 turn;        // b against a, an angle: of hinges and fixed joints
     fixed::Vec3 grip;        // the same of friction or the motor
@@ -91,6 +89,11 @@ struct Joint {
     // What it pushed and turned in the last tick, substeps added up; for reading out.
     fixed::Vec3 pushed;
     fixed::Vec3 turned;
+};
+
+struct Joint : JointState {
+    JointDescription description;
+    JointConstants constants;
 
     // Of the tick: its points are solved with those of its tree (rigid/articulation.h).
     bool in_tree;

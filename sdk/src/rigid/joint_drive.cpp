@@ -52,7 +52,7 @@ void drag(Joint& joint, Body& a, Body& b) {
 // world.
 Vec3 missing_turn(const Joint& joint, const Body& a, const Body& b) {
     const fixed::Rotation now = relative_rotation(joint, a, b);
-    fixed::Rotation q = fixed::multiply(joint.description.motor_target, fixed::conjugate(now));
+    fixed::Rotation q = fixed::multiply(joint.motor_target, fixed::conjugate(now));
     if (joint.description.kind == LKS_JOINT_HINGE) {
         q.x = 0;
         q.z = 0;

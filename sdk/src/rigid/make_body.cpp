@@ -18,19 +18,33 @@ fixed::Rotation rotation(const lks_rotation& q) {
     return fixed::normalise(fixed::Rotation{q.x, q.y, q.z, q.w});
 }
 
-BodyShape make_shape(const lks_body_shape& from) {
-    BodyShape shape{};
-    shape.kind = from.shape;
+lks_body_shape plain_shape(const lks_body_shape& from) {
+    lks_body_shape shape{};
+    shape.shape = from.shape;
+    shape.transform.position = from.transform.position;
+    const fixed::Rotation q = rotation(from.transform.rotation);
+    shape.transform.rotation = {q.x, q.y, q.z, q.w};
     if (from.shape != LKS_SHAPE_BOX) {
         shape.radius = from.radius;
     } else {
-        shape.half_extents = vector(from.half_extents);
+        shape.half_extents = from.half_extents;
     }
     if (from.shape == LKS_SHAPE_CAPSULE) {
         shape.half_length = from.half_length;
     }
+    shape.density = from.density;
+    return shape;
+}
+
+BodyShape make_shape(const lks_body_shape& from) {
+    const lks_rotation& q = from.transform.rotation;
+    BodyShape shape{};
+    shape.kind = from.shape;
+    shape.radius = from.radius;
+    shape.half_length = from.half_length;
+    shape.half_extents = vector(from.half_extents);
     shape.position = vector(from.transform.position);
-    shape.rotation = rotation(from.transform.rotation);
+    shape.rotation = {q.x, q.y, q.z, q.w};
     shape.density = from.density;
     return shape;
 }
@@ -53,64 +67,71 @@ std::int64_t minor(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t 
 
 } // namespace
 
-BodyDescription describe_body(const lks_body_def& def) {
-    BodyDescription out{};
+BodyDefinition plain_definition(const lks_body_def& def) {
+    BodyDefinition out{};
     out.kind = def.kind;
     out.shape_count = def.shape_count;
+    out.settings = {def.mass,
+                    def.gravity_factor,
+                    def.linear_damping,
+                    def.angular_damping,
+                    def.static_friction,
+                    def.dynamic_friction,
+                    def.restitution,
+                    def.filter,
+                    def.never_sleeps};
     for (std::uint32_t i = 0; i < def.shape_count; ++i) {
-        out.shapes[i] = make_shape(def.shapes[i]);
+        out.shapes[i] = plain_shape(def.shapes[i]);
+    }
+    return out;
+}
+
+lks_body_def define_body(const BodyDefinition& definition) {
+    const BodySettings& settings = definition.settings;
+    lks_body_def def{};
+    def.struct_size = sizeof(lks_body_def);
+    def.kind = definition.kind;
+    def.transform.rotation.w = LKS_ROTATION_ONE;
+    def.shapes = definition.shapes;
+    def.shape_count = definition.shape_count;
+    def.mass = settings.mass;
+    def.gravity_factor = settings.gravity_factor;
+    def.linear_damping = settings.linear_damping;
+    def.angular_damping = settings.angular_damping;
+    def.static_friction = settings.static_friction;
+    def.dynamic_friction = settings.dynamic_friction;
+    def.restitution = settings.restitution;
+    def.filter = settings.filter;
+    def.never_sleeps = settings.never_sleeps;
+    return def;
+}
+
+BodyDescription describe_body(const BodyDefinition& definition) {
+    const BodySettings& settings = definition.settings;
+    BodyDescription out{};
+    out.kind = definition.kind;
+    out.shape_count = definition.shape_count;
+    for (std::uint32_t i = 0; i < out.shape_count; ++i) {
+        out.shapes[i] = make_shape(definition.shapes[i]);
     }
     out.properties = mass_properties(out.shapes, out.shape_count);
-    out.given_mass = def.mass;
-    if (def.mass != 0) {
-        out.properties.mass = magnitude(def.mass);
+    if (settings.mass != 0) {
+        out.properties.mass = magnitude(settings.mass);
     }
     out.centre = out.properties.centre;
-    for (std::uint32_t i = 0; i < def.shape_count; ++i) {
+    for (std::uint32_t i = 0; i < out.shape_count; ++i) {
         BodyShape& shape = out.shapes[i];
         shape.position = shape.position - out.centre;
         const auto distance = static_cast<std::int64_t>(fixed::length(shape.position));
         out.radius = std::max(out.radius, distance + bounding_radius(shape));
     }
-    out.surface = {def.static_friction, def.dynamic_friction, def.restitution};
-    out.filter = def.filter;
-    out.gravity_factor = def.gravity_factor;
-    out.linear_damping = def.linear_damping;
-    out.angular_damping = def.angular_damping;
-    out.never_sleeps = def.never_sleeps;
+    out.surface = {settings.static_friction, settings.dynamic_friction, settings.restitution};
+    out.filter = settings.filter;
+    out.gravity_factor = settings.gravity_factor;
+    out.linear_damping = settings.linear_damping;
+    out.angular_damping = settings.angular_damping;
+    out.never_sleeps = settings.never_sleeps;
     return out;
-}
-
-lks_body_def define_body(const BodyDescription& description, lks_body_shape* shapes) {
-    lks_body_def def{};
-    def.struct_size = sizeof(lks_body_def);
-    def.kind = description.kind;
-    def.transform.rotation.w = LKS_ROTATION_ONE;
-    for (std::uint32_t i = 0; i < description.shape_count; ++i) {
-        const BodyShape& from = description.shapes[i];
-        const Vec3 position = from.position + description.centre;
-        lks_body_shape shape{};
-        shape.shape = from.kind;
-        shape.transform.position = {position.x, position.y, position.z};
-        shape.transform.rotation = {from.rotation.x, from.rotation.y, from.rotation.z, from.rotation.w};
-        shape.radius = from.radius;
-        shape.half_length = from.half_length;
-        shape.half_extents = {from.half_extents.x, from.half_extents.y, from.half_extents.z};
-        shape.density = from.density;
-        shapes[i] = shape;
-    }
-    def.shapes = shapes;
-    def.shape_count = description.shape_count;
-    def.mass = description.given_mass;
-    def.gravity_factor = description.gravity_factor;
-    def.linear_damping = description.linear_damping;
-    def.angular_damping = description.angular_damping;
-    def.static_friction = description.surface.static_friction;
-    def.dynamic_friction = description.surface.dynamic_friction;
-    def.restitution = description.surface.restitution;
-    def.filter = description.filter;
-    def.never_sleeps = description.never_sleeps;
-    return def;
 }
 
 void apply_description(Body& body, const BodyDescription& description) {

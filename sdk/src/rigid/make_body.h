@@ -2,14 +2,12 @@
 #pragma once
 
 #include "rigid/body.h"
+#include "rigid/body_definition.h"
 #include "rigid/pair.h"
 
 namespace lks {
 
-// A checked definition.
-BodyDescription describe_body(const lks_body_def& def);
-// The other way round; `shapes` has room for LKS_MAX_BODY_SHAPES. Without where the body is.
-lks_body_def define_body(const BodyDescription& description, lks_body_shape* shapes);
+BodyDescription describe_body(const BodyDefinition& definition);
 // At rest where the definition says, with its velocities.
 Body make_body(const BodyDescription& description, const lks_body_def& def);
 // What follows from the description alone; for new bodies and for those of images.

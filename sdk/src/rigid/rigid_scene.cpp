@@ -5,16 +5,16 @@
 namespace lks {
 
 RigidScene::RigidScene(const lks_allocator& allocator)
-    : body_slots(allocator), bodies(allocator), descriptions(allocator), joint_slots(allocator),
+    : body_slots(allocator), bodies(allocator), definitions(allocator), joint_slots(allocator),
       joints(allocator), memories(allocator), attachment_slots(allocator), attachments(allocator),
-      jointed(allocator), ticks(allocator), collider_bodies(allocator), pieces(allocator),
-      piece_starts(allocator), travels(allocator), overlaps(allocator), boxed(allocator), pairs(allocator),
-      contacts(allocator), next_memories(allocator), islands(allocator), tree_roots(allocator),
-      tree_links(allocator), tree_bodies(allocator), tree_joints(allocator), articulated(allocator),
-      trees(allocator), figures(allocator), figure_parts(allocator), figure_ranges(allocator),
-      shared_contacts(allocator), figure_shares(allocator), figures_changed(allocator),
-      island_rests(allocator), is_coupled(allocator), coupled(allocator), object_pairs(allocator),
-      held(allocator), loaded_kinds(allocator) {}
+      descriptions(allocator), jointed(allocator), ticks(allocator), collider_bodies(allocator),
+      pieces(allocator), piece_starts(allocator), travels(allocator), overlaps(allocator), boxed(allocator),
+      pairs(allocator), contacts(allocator), next_memories(allocator), islands(allocator),
+      tree_roots(allocator), tree_links(allocator), tree_bodies(allocator), tree_joints(allocator),
+      articulated(allocator), trees(allocator), figures(allocator), figure_parts(allocator),
+      figure_ranges(allocator), shared_contacts(allocator), figure_shares(allocator),
+      figures_changed(allocator), island_rests(allocator), is_coupled(allocator), coupled(allocator),
+      object_pairs(allocator), held(allocator), loaded_bodies(allocator), loaded_joints(allocator) {}
 
 bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
     if (body_count == 0) {
@@ -22,13 +22,14 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
     }
     const std::size_t boxes = body_count + collider_count + object_room_;
     const bool done =
-        body_slots.reserve(body_count) && bodies.reserve(body_count) && descriptions.reserve(body_count) &&
-        ticks.reserve(body_count) && collider_bodies.reserve(collider_count) &&
-        pieces.reserve(body_count * LKS_MAX_BODY_SHAPES) && piece_starts.reserve(body_count) &&
-        travels.reserve(body_count) && overlaps.reserve(static_cast<std::uint32_t>(boxes)) &&
-        boxed.reserve(boxes) && pairs.reserve(pair_capacity(body_count)) &&
-        contacts.reserve(contact_capacity(body_count)) && memories.reserve(contact_capacity(body_count)) &&
-        next_memories.reserve(contact_capacity(body_count)) && loaded_kinds.reserve(body_count) &&
+        body_slots.reserve(body_count) && bodies.reserve(body_count) && definitions.reserve(body_count) &&
+        descriptions.reserve(body_count) && ticks.reserve(body_count) &&
+        collider_bodies.reserve(collider_count) && pieces.reserve(body_count * LKS_MAX_BODY_SHAPES) &&
+        piece_starts.reserve(body_count) && travels.reserve(body_count) &&
+        overlaps.reserve(static_cast<std::uint32_t>(boxes)) && boxed.reserve(boxes) &&
+        pairs.reserve(pair_capacity(body_count)) && contacts.reserve(contact_capacity(body_count)) &&
+        memories.reserve(contact_capacity(body_count)) &&
+        next_memories.reserve(contact_capacity(body_count)) && loaded_bodies.reserve(body_count) &&
         islands.reserve(body_count) && figures.reserve(body_count) && tree_roots.reserve(body_count) &&
         tree_bodies.reserve(body_count) && articulated.reserve(body_count) &&
         reserve_figures(body_count, joint_room_, attachment_room_) && island_rests.reserve(body_count) &&
@@ -40,9 +41,9 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
 }
 
 bool RigidScene::reserve_joints(std::size_t count) {
-    const bool done = joint_slots.reserve(count) && joints.reserve(count) && jointed.reserve(count) &&
-                      tree_links.reserve(2 * count) && tree_joints.reserve(count) && trees.reserve(count) &&
-                      reserve_figures(body_room_, count, attachment_room_);
+    const bool done = joint_slots.reserve(count) && joints.reserve(count) && loaded_joints.reserve(count) &&
+                      jointed.reserve(count) && tree_links.reserve(2 * count) && tree_joints.reserve(count) &&
+                      trees.reserve(count) && reserve_figures(body_room_, count, attachment_room_);
     joint_room_ = done ? std::max(joint_room_, count) : joint_room_;
     return done;
 }

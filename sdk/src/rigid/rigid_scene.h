@@ -8,6 +8,7 @@
 #include "rigid/articulation_parts.h"
 #include "rigid/attachment.h"
 #include "rigid/body.h"
+#include "rigid/body_definition.h"
 #include "rigid/contact.h"
 #include "rigid/figure_parts.h"
 #include "rigid/joint.h"
@@ -24,6 +25,9 @@ struct ContactMemory {
     ContactPush pushes[greatest_point_count];
 };
 
+// What a load puts into a slot: nothing, what is defined as what is there, or something else.
+enum class Loaded : std::uint8_t { nothing, same, other };
+
 struct RigidScene {
     explicit RigidScene(const lks_allocator& allocator);
     RigidScene(const RigidScene&) = delete;
@@ -32,13 +36,14 @@ struct RigidScene {
     // State, by slot.
     Array<Slot> body_slots;
     Array<Body> bodies;
-    Array<BodyDescription> descriptions;
+    Array<BodyDefinition> definitions;
     Array<Slot> joint_slots;
     Array<Joint> joints;
     Array<ContactMemory> memories;
     Array<Slot> attachment_slots;
     Array<Attachment> attachments;
 
+    Array<BodyDescription> descriptions; // derived, by body
     // Derived: body a << 32 | body b > a of joints whose bodies don't collide, ascending.
     Array<std::uint64_t> jointed;
 
@@ -76,8 +81,9 @@ struct RigidScene {
     Array<std::uint32_t> coupled;
     Array<std::uint64_t> object_pairs;
     Array<HeldParticle> held; // ascending
-    Array<std::uint8_t>
-        loaded_kinds; // scratch of a load: 1 + an lks_body_kind by body, 0 where there is none
+    // Scratch of a load, by slot.
+    Array<Loaded> loaded_bodies;
+    Array<Loaded> loaded_joints;
 
     // Room for everything that a tick with so many slots may need. False: no memory.
     [[nodiscard]] bool reserve(std::size_t body_count, std::size_t collider_count);

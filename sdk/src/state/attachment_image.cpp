@@ -19,12 +19,13 @@ bool has_particle(const lks_world& world, std::uint32_t object, std::uint32_t pa
 // What a definition has not got is zero.
 bool is_valid(const lks_world& world, const Attachment& attachment) {
     const AttachmentDescription& d = attachment.description;
-    const Array<std::uint8_t>& kinds = world.rigid.loaded_kinds;
+    const Array<Loaded>& bodies = world.rigid.loaded_bodies;
     const bool to_body = d.kind == LKS_ATTACHMENT_TO_BODY;
-    const bool other = to_body ? d.other < kinds.size() && kinds[d.other] != 0 && d.other_particle == 0
-                               : has_particle(world, d.other, d.other_particle) &&
-                                     (d.other != d.object || d.other_particle != d.particle) &&
-                                     within(from_vec3(d.point), 0);
+    const bool other =
+        to_body
+            ? d.other < bodies.size() && bodies[d.other] != Loaded::nothing && d.other_particle == 0
+            : has_particle(world, d.other, d.other_particle) &&
+                  (d.other != d.object || d.other_particle != d.particle) && within(from_vec3(d.point), 0);
     const std::int64_t greatest_sum = greatest_push * world.rate.substeps;
     return d.kind <= LKS_ATTACHMENT_TO_VERTEX && has_particle(world, d.object, d.particle) && other &&
            d.reserved == 0 && within(from_vec3(d.point), LKS_FIXED(124)) &&

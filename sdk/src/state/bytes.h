@@ -1,6 +1,6 @@
 // Little-endian bytes in and out, the same on every machine, without unaligned access.
 //
-// Arrays of 64- and 32-bit integers are block copies where the host is little-endian.
+// Integers, and arrays of 64-bit ones, are block copies where the host is little-endian.
 #pragma once
 
 #include <bit>
@@ -11,6 +11,26 @@
 namespace lks {
 
 inline constexpr bool host_is_little_endian = std::endian::native == std::endian::little;
+
+template <typename T>
+T read_integer(const unsigned char* at) {
+    T value = 0;
+    if constexpr (host_is_little_endian) {
+        std::memcpy(&value, at, sizeof(T));
+    } else {
+        for (std::size_t i = 0; i < sizeof(T); ++i) {
+            value = static_cast<T>(value | (static_cast<T>(at[i]) << (8 * i)));
+        }
+    }
+    return value;
+}
+
+inline std::uint32_t read_u32(const unsigned char* at) {
+    return read_integer<std::uint32_t>(at);
+}
+inline std::int64_t read_i64(const unsigned char* at) {
+    return static_cast<std::int64_t>(read_integer<std::uint64_t>(at));
+}
 
 // Writes into memory that was measured before: it cannot run out.
 class ByteWriter {
@@ -23,10 +43,7 @@ public:
 
     void i64_array(const std::int64_t* values, std::size_t count) {
         if constexpr (host_is_little_endian) {
-            if (count != 0) {
-                std::memcpy(at_, values, count * sizeof(std::int64_t));
-                at_ += count * sizeof(std::int64_t);
-            }
+            block(values, count * sizeof(std::int64_t));
         } else {
             for (std::size_t i = 0; i < count; ++i) {
                 i64(values[i]);
@@ -34,13 +51,23 @@ public:
         }
     }
 
-    unsigned char* position() const { return at_; }
+    // As they are.
+    void block(const void* bytes, std::size_t size) {
+        if (size != 0) {
+            std::memcpy(at_, bytes, size);
+            at_ += size;
+        }
+    }
 
 private:
     template <typename T>
     void integer(T value) {
-        for (std::size_t i = 0; i < sizeof(T); ++i) {
-            at_[i] = static_cast<unsigned char>(value >> (8 * i));
+        if constexpr (host_is_little_endian) {
+            std::memcpy(at_, &value, sizeof(T));
+        } else {
+            for (std::size_t i = 0; i < sizeof(T); ++i) {
+                at_[i] = static_cast<unsigned char>(value >> (8 * i));
+            }
         }
         at_ += sizeof(T);
     }
@@ -60,8 +87,8 @@ public:
     void i64_array(std::int64_t* values, std::size_t count) {
         if constexpr (host_is_little_endian) {
             const std::size_t bytes = count * sizeof(std::int64_t);
-            if (count != 0 && take(bytes)) {
-                std::memcpy(values, at_ - bytes, bytes);
+            if (const unsigned char* from = block(bytes); from != nullptr && count != 0) {
+                std::memcpy(values, from, bytes);
             }
         } else {
             for (std::size_t i = 0; i < count; ++i) {
@@ -74,6 +101,9 @@ public:
     bool skip_i64(std::size_t count) {
         return count <= left_ / sizeof(std::int64_t) && take(count * sizeof(std::int64_t));
     }
+
+    // The next bytes as they are; null where fewer are left.
+    const unsigned char* block(std::size_t bytes) { return take(bytes) ? at_ - bytes : nullptr; }
 
     bool complete() const { return complete_; }
     std::size_t left() const { return left_; }
@@ -92,14 +122,7 @@ private:
 
     template <typename T>
     T integer() {
-        if (!take(sizeof(T))) {
-            return 0;
-        }
-        T value = 0;
-        for (std::size_t i = 0; i < sizeof(T); ++i) {
-            value = static_cast<T>(value | (static_cast<T>(*(at_ - sizeof(T) + i)) << (8 * i)));
-        }
-        return value;
+        return take(sizeof(T)) ? read_integer<T>(at_ - sizeof(T)) : 0;
     }
 
     const unsigned char* at_;

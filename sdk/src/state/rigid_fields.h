@@ -31,44 +31,36 @@ void quaternion_fields(Io& io, Quaternion& q) {
     io.i64(q.w);
 }
 
-// All shapes, used or not: every body has the same size.
 template <typename Io>
-void body_definition_fields(Io& io, lks_body_def& def, lks_body_shape (&shapes)[LKS_MAX_BODY_SHAPES]) {
-    io.u32(def.kind);
-    io.u32(def.shape_count);
-    for (lks_body_shape& shape : shapes) {
-        io.u32(shape.shape);
-        io.u32(shape.reserved);
-        vector_fields(io, shape.transform.position);
-        rotation_fields(io, shape.transform.rotation);
-        io.i64(shape.radius);
-        io.i64(shape.half_length);
-        vector_fields(io, shape.half_extents);
-        io.i64(shape.density);
-    }
-    io.i64(def.mass);
-    io.i64(def.gravity_factor);
-    io.i64(def.linear_damping);
-    io.i64(def.angular_damping);
-    io.i64(def.static_friction);
-    io.i64(def.dynamic_friction);
-    io.i64(def.restitution);
-    io.u32(def.filter.category);
-    io.u32(def.filter.mask);
-    io.i32(def.filter.group);
-    io.u32(def.never_sleeps);
-}
-
-// Where it is in the world, and where it goes.
-template <typename Io>
-void body_place_fields(Io& io, Body& body) {
-    vector_fields(io, body.position);
-    vector_fields(io, body.target_position);
-    vector_fields(io, body.rest_position);
+void record_fields(Io& io, BodySettings& settings) {
+    io.i64(settings.mass);
+    io.i64(settings.gravity_factor);
+    io.i64(settings.linear_damping);
+    io.i64(settings.angular_damping);
+    io.i64(settings.static_friction);
+    io.i64(settings.dynamic_friction);
+    io.i64(settings.restitution);
+    io.u32(settings.filter.category);
+    io.u32(settings.filter.mask);
+    io.i32(settings.filter.group);
+    io.u32(settings.never_sleeps);
 }
 
 template <typename Io>
-void body_motion_fields(Io& io, Body& body) {
+void record_fields(Io& io, lks_body_shape& shape) {
+    io.u32(shape.shape);
+    io.u32(shape.reserved);
+    vector_fields(io, shape.transform.position);
+    rotation_fields(io, shape.transform.rotation);
+    io.i64(shape.radius);
+    io.i64(shape.half_length);
+    vector_fields(io, shape.half_extents);
+    io.i64(shape.density);
+}
+
+// How it is turned, how it moves, and its sleep.
+template <typename Io>
+void body_motion_fields(Io& io, BodyState& body) {
     quaternion_fields(io, body.orientation);
     quaternion_fields(io, body.target_orientation);
     vector_fields(io, body.velocity);
@@ -79,8 +71,15 @@ void body_motion_fields(Io& io, Body& body) {
 }
 
 template <typename Io>
-void joint_fields(Io& io, Joint& joint) {
-    JointDescription& d = joint.description;
+void record_fields(Io& io, BodyState& body) {
+    vector_fields(io, body.position);
+    vector_fields(io, body.target_position);
+    vector_fields(io, body.rest_position);
+    body_motion_fields(io, body);
+}
+
+template <typename Io>
+void record_fields(Io& io, JointDescription& d) {
     io.u32(d.kind);
     io.u32(d.body_a);
     io.u32(d.body_b);
@@ -104,7 +103,16 @@ void joint_fields(Io& io, Joint& joint) {
     io.i64(d.break_torque);
     io.i64(d.motor_torque);
     io.i64(d.motor_response);
-    rotation_fields(io, d.motor_target);
+}
+
+template <typename Io>
+void record_fields(Io& io, fixed::Rotation& rotation) {
+    rotation_fields(io, rotation);
+}
+
+template <typename Io>
+void record_fields(Io& io, JointState& joint) {
+    record_fields(io, joint.motor_target);
     vector_fields(io, joint.push);
     vector_fields(io, joint.turn);
     vector_fields(io, joint.grip);
@@ -131,18 +139,23 @@ void attachment_fields(Io& io, Attachment& attachment) {
 }
 
 template <typename Io>
-void memory_fields(Io& io, ContactMemory& memory) {
+void record_fields(Io& io, ContactPush& push) {
+    io.u32(push.feature);
+    io.u32(push.reserved);
+    vector_fields(io, push.place);
+    io.i64(push.normal);
+    io.i64(push.across[0]);
+    io.i64(push.across[1]);
+}
+
+template <typename Io>
+void record_fields(Io& io, ContactMemory& memory) {
     io.u32(memory.key.body_a);
     io.u32(memory.key.other);
     io.u32(memory.key.shapes);
     io.u32(memory.count);
     for (ContactPush& push : memory.pushes) {
-        io.u32(push.feature);
-        io.u32(push.reserved);
-        vector_fields(io, push.place);
-        io.i64(push.normal);
-        io.i64(push.across[0]);
-        io.i64(push.across[1]);
+        record_fields(io, push);
     }
 }
 

@@ -1,4 +1,13 @@
-// Bodies, joints and contacts in an image: one record a slot, all of one size, and the pushes of contacts.
+// Bodies, joints and contacts in an image, as records (state/records.h):
+//
+//     body     generation, used; then, for the used ones, kind, shape count, BodySettings, a lks_body_shape
+//     for
+//              each shape, BodyState
+//     joint    generation, used; then, for the used ones, JointDescription, JointState
+//     contact  key, count, a ContactPush for each point that pushes
+//
+// What a world has of the definitions already, byte for byte and in the same slots, is neither checked again
+// nor made again from them: a rollback costs no more than its states.
 #pragma once
 
 #include "solver/world.h"
@@ -17,10 +26,11 @@ struct RigidCounts {
 RigidCounts rigid_counts(const RigidScene& scene);
 std::size_t rigid_image_size(const RigidScene& scene);
 void write_rigid(ByteWriter& out, const RigidScene& scene);
-// Checks every value. False: one is out of range; `what` and `index` say which.
+// Checks every value, and marks what is new to the world. False: one is out of range; `what` and `index` say
+// which.
 bool check_rigid(ByteReader& in, const RigidCounts& counts, lks_world& world, const char*& what,
                  std::uint32_t& index);
-// What was checked, within reserved memory.
+// What was checked just before, within reserved memory.
 void read_rigid(ByteReader& in, const RigidCounts& counts, const StepRate& rate, RigidScene& scene);
 
 // `local` leaves out where bodies are in the world.

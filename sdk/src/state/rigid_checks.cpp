@@ -1,0 +1,120 @@
+#include "state/rigid_checks.h"
+
+#include <cstddef>
+
+#include "api/body_checks.h"
+#include "api/joint_checks.h"
+#include "rigid/body_motion.h"
+#include "state/records.h"
+
+namespace lks {
+namespace {
+
+constexpr std::int64_t unit_room = turn_one >> 20;
+constexpr std::int64_t greatest_u32 = UINT32_MAX;
+
+// Components within the range of a unit's.
+bool is_unit(const unsigned char* at) {
+    std::int64_t squared = -turn_one;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::int64_t part = read_i64(at + 8 * i);
+        squared += multiply_turn(part, part);
+    }
+    return within(squared, unit_room);
+}
+
+// What a shape has not got is zero.
+bool is_plain(const lks_body_shape& s) {
+    const bool round = s.shape != LKS_SHAPE_BOX;
+    const fixed::Rotation rotation = to_rotation(s.transform.rotation);
+    return (round || s.radius == 0) && (s.shape == LKS_SHAPE_CAPSULE || s.half_length == 0) &&
+           (!round || within(s.half_extents, 0)) && fixed::normalise(rotation) == rotation;
+}
+
+bool within(const fixed::Vec3& v, std::int64_t limit) {
+    return lks::within(from_vec3(v), limit);
+}
+
+} // namespace
+
+RigidChecks::RigidChecks(const lks_world& world) : world_(world) {
+    const std::int64_t greatest_sum = greatest_push * world.rate.substeps;
+    body_ranges_.within(world_position_limit, 9)
+        .within(turn_one + unit_room, 8)
+        .within(body_speed_limit(world.rate), 3)
+        // Spins may go beyond the limit by what the middle of a substep differs from its end.
+        .within(2 * body_spin_limit(world.rate), 3)
+        .within(turn_one + unit_room, 4)
+        .between(0, (std::int64_t{1} << 32) + greatest_u32); // any rest_ticks; asleep 0 or 1
+    joint_ranges_
+        .within(greatest_push, 9)  // push, turn, grip
+        .between(0, greatest_push) // swing_push
+        .within(greatest_push, 1)
+        .within(greatest_sum, 3)
+        .within(5 * greatest_sum, 3);
+    for (std::uint32_t i = 0; i < greatest_point_count; ++i) {
+        push_ranges_
+            .between(0, greatest_u32) // any feature; nothing reserved
+            .within(LKS_FIXED(128), 3)
+            .between(0, greatest_push)
+            .within(greatest_push, 2);
+    }
+}
+
+bool RigidChecks::definition(const BodyDefinition& definition) const {
+    if (check_body_def(world_, define_body(definition)) != LKS_OK) {
+        return false;
+    }
+    for (std::uint32_t i = 0; i < definition.shape_count; ++i) {
+        if (!is_plain(definition.shapes[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The points are from the centres of mass, which lie within 60 m of the frames that the game gave.
+bool RigidChecks::description(const JointDescription& d) const {
+    const lks_motor motor{d.motor_torque, d.motor_response, {0, 0, 0, LKS_ROTATION_ONE}};
+    return within(d.point_a, LKS_FIXED(124)) && within(d.point_b, LKS_FIXED(124)) &&
+           check_joint_ranges(world_, define_joint(d)) == LKS_OK && d.swing_limit_z >= -1 &&
+           check_motor(world_, d.kind, motor) == LKS_OK;
+}
+
+bool RigidChecks::joined(std::uint32_t a, std::uint32_t b, const Array<Loaded>& bodies) {
+    return a != b && a < bodies.size() && b < bodies.size() && bodies[a] != Loaded::nothing &&
+           bodies[b] != Loaded::nothing;
+}
+
+bool RigidChecks::body(const unsigned char* at) const {
+    return body_ranges_.hold(at) && is_unit(at + offsetof(BodyState, orientation)) &&
+           is_unit(at + offsetof(BodyState, target_orientation)) &&
+           is_unit(at + offsetof(BodyState, rest_orientation));
+}
+
+bool RigidChecks::joint(const unsigned char* at, const fixed::Rotation& known_target) const {
+    static_assert(offsetof(JointState, motor_target) == 0);
+    if (!joint_ranges_.hold(at + target_size)) {
+        return false;
+    }
+    fixed::Rotation target{};
+    read_record(at, target);
+    return target == known_target || fixed::normalise(target) == target;
+}
+
+bool RigidChecks::contact(const ContactKey& key, std::uint32_t count, const Array<Loaded>& bodies) {
+    const auto exists = [&bodies](std::uint32_t body) {
+        return body < bodies.size() && bodies[body] != Loaded::nothing;
+    };
+    const bool other_exists = key.other >= other_is_collider
+                                  ? (key.other & ~other_is_collider) < LKS_MAX_COLLIDERS
+                                  : key.other > key.body_a && exists(key.other);
+    return exists(key.body_a) && other_exists && key.shapes < LKS_MAX_BODY_SHAPES * LKS_MAX_BODY_SHAPES &&
+           count >= 1 && count <= greatest_point_count;
+}
+
+bool RigidChecks::pushes(const unsigned char* at, std::uint32_t count) const {
+    return push_ranges_.hold(at, count * push_words);
+}
+
+} // namespace lks

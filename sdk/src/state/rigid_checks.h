@@ -1,0 +1,37 @@
+// What an image may say of bodies, joints and contacts. States are checked as they stand in it.
+#pragma once
+
+#include "solver/world.h"
+#include "state/word_ranges.h"
+
+namespace lks {
+
+class RigidChecks {
+public:
+    explicit RigidChecks(const lks_world& world);
+
+    // What a game could have given, in its plain form.
+    bool definition(const BodyDefinition& definition) const;
+    bool description(const JointDescription& description) const;
+    // Two bodies that are there.
+    static bool joined(std::uint32_t a, std::uint32_t b, const Array<Loaded>& bodies);
+
+    // A BodyState, a JointState.
+    bool body(const unsigned char* at) const;
+    bool joint(const unsigned char* at, const fixed::Rotation& known_target) const;
+    // Between a body and a later one, both there, or a collider.
+    static bool contact(const ContactKey& key, std::uint32_t count, const Array<Loaded>& bodies);
+    // So many of a ContactPush.
+    bool pushes(const unsigned char* at, std::uint32_t count) const;
+
+private:
+    static constexpr std::size_t push_words = sizeof(ContactPush) / 8;
+    static constexpr std::size_t target_size = sizeof(fixed::Rotation);
+
+    const lks_world& world_;
+    WordRanges<sizeof(BodyState) / 8> body_ranges_;
+    WordRanges<(sizeof(JointState) - target_size) / 8> joint_ranges_;
+    WordRanges<greatest_point_count * push_words> push_ranges_;
+};
+
+} // namespace lks
