@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <memory>
 #include <numeric>
 
@@ -109,12 +110,13 @@ struct Run {
 void measure_snapshots_of(const char* name, lks_world* world, int rounds, Results& results) {
     std::size_t size = 0;
     lks_world_save_size(world, &size);
-    std::vector<std::uint64_t> image(size / 8 + 1);
+    std::vector<std::uint64_t> image(size / 8 + 1), copy(size / 8 + 1);
     std::size_t written = 0;
     lks_world_save(world, image.data(), size, &written);
     volatile std::uint64_t sink = 0;
     const std::vector<Measurement> measured =
-        measure_in_turns({{"save", [&] { lks_world_save(world, image.data(), size, &written); }},
+        measure_in_turns({{"memcpy", [&] { std::memcpy(copy.data(), image.data(), size); }},
+                          {"save", [&] { lks_world_save(world, image.data(), size, &written); }},
                           {"load", [&] { lks_world_load(world, image.data(), size); }},
                           {"hash", [&] { sink = lks_world_hash(world); }}},
                          rounds);
