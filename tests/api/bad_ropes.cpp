@@ -99,7 +99,6 @@ TEST_CASE("negative or extreme compliance and damping of a rope are refused") {
     refused([](auto& def) { def.bend.damping = -7; }, "-7");
     refused([](auto& def) { def.bend.enabled = 3; }, "3");
     refused([](auto& def) { def.stretch.reserved = 4; }, "4");
-    refused([](auto& def) { def.reserved = 8; }, "8");
     refused([](auto& def) { def.particle_radius = 1.25; }, "1.25");
     refused([](auto& def) { def.friction = -0.5; }, "-0.5");
 }
@@ -155,4 +154,33 @@ TEST_CASE("a rope that doubles back onto itself has no bend constraint of length
         CHECK(result == invalid);
         check_sentence(error.message, "0");
     }
+}
+
+TEST_CASE("a solver that does not exist or does not fit the rope is refused") {
+    refused([](auto& def) { def.solver = 3; }, "3");
+    refused([](auto& def) { def.solver = UINT32_MAX; }, "4294967295");
+    refused(
+        [](auto& def) {
+            def.solver = LKS_ROPE_DIRECT;
+            def.stretch = off;
+        },
+        "stretch");
+    refused(
+        [](auto& def) {
+            def.solver = LKS_ROPE_DIRECT;
+            def.segments = LKS_MAX_DIRECT_SEGMENTS + 1;
+        },
+        "16385");
+    // Of itself it takes what fits.
+    Asset(changed([](auto& def) { def.stretch = off; }));
+    Asset(changed([](auto& def) { def.segments = LKS_MAX_DIRECT_SEGMENTS + 1; }));
+    Asset(changed([](auto& def) {
+        def.solver = LKS_ROPE_DIRECT;
+        def.segments = LKS_MAX_DIRECT_SEGMENTS;
+    }));
+    Asset(changed([](auto& def) {
+        def.solver = LKS_ROPE_DIRECT;
+        def.segments = 1;
+        def.bend = off;
+    }));
 }

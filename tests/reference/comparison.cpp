@@ -5,11 +5,17 @@
 namespace reference {
 namespace {
 
+support::Vector velocity_of(const Scenario& scenario, const Model& model, std::size_t particle) {
+    const support::Vector arm = model.positions[particle] - model.positions[0];
+    return support::metres(scenario.velocity) +
+           support::Vector{-arm.y * scenario.spin, arm.x * scenario.spin, 0};
+}
+
 template <typename Scalar>
 Solver<Scalar> run(const Model& model, const Scenario& scenario, const support::Vector& place = {}) {
     Solver<Scalar> solver(model, scenario.settings, place);
     for (std::size_t particle = 0; particle < solver.size(); ++particle) {
-        solver.set_velocity(particle, support::metres(scenario.velocity));
+        solver.set_velocity(particle, velocity_of(scenario, model, particle));
     }
     for (const std::uint32_t pin : scenario.pins) {
         solver.set_velocity(pin, {});
@@ -48,7 +54,17 @@ Deviation deviation_of(const Scenario& scenario) {
         world.pin(object, pin);
     }
     const lks_vec3 place = scenario.transform.position;
-    const Model model = model_of(world, object, *scenario.asset, place, scenario.masses, scenario.materials);
+    Model model = model_of(world, object, *scenario.asset, place, scenario.masses, scenario.materials);
+    if (scenario.spin != 0) {
+        for (std::uint32_t particle = 0; particle < model.positions.size(); ++particle) {
+            const support::Vector v = velocity_of(scenario, model, particle);
+            REQUIRE(lks_object_set_velocity(world, object, particle, support::fixed(v.x, v.y, v.z)) ==
+                    LKS_OK);
+        }
+    }
+    if (scenario.direct) {
+        model.chain = segments_of(model.edges);
+    }
     world.step(static_cast<std::uint64_t>(scenario.ticks));
 
     const lks_world_counters counters = world.counters();

@@ -19,6 +19,8 @@ struct Scenario {
     Settings settings{};
     int ticks = 60;
     lks_vec3 velocity{}; // of every particle at the start
+    double spin = 0;     // and about z through the first particle, rad/s: v += spin × (x − x_0)
+    bool direct = false; // a rope whose segments are solved at once
 };
 
 // Largest distance of any particle from where the double-precision solver has it, metres.

@@ -13,6 +13,7 @@
 #include <limits>
 #include <vector>
 
+#include "reference/chain.h"
 #include "reference/model.h"
 
 namespace reference {
@@ -50,7 +51,7 @@ public:
     // `place` moves the scene away from the origin, where float32 has fewer bits left.
     Solver(const Model& model, const Settings& settings, const support::Vector& place = {})
         : settings_(settings), h_(static_cast<Scalar>(1 / (settings.tick_rate_hz * settings.substeps))),
-          place_(place), edges_(model.edges) {
+          place_(place), edges_(model.edges), chain_(model.chain) {
         for (std::size_t i = 0; i < model.positions.size(); ++i) {
             positions_.push_back(Vec(model.positions[i] + place));
             velocities_.emplace_back();
@@ -82,7 +83,12 @@ public:
                 std::fill(multipliers_.begin(), multipliers_.end(), Scalar(0));
                 for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
                     for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
-                        project(edge);
+                        if (chain_.empty() || edges_[edge].family != LKS_CONSTRAINT_STRETCH) {
+                            project(edge);
+                        }
+                    }
+                    if (!chain_.empty()) {
+                        solve_chain();
                     }
                 }
                 for (std::size_t p = 0; p < positions_.size(); ++p) {
@@ -185,10 +191,64 @@ private:
         positions_[edge.b] = positions_[edge.b] - difference * (k.s_b * relative);
     }
 
+    // Particles stand in the order of the rope, as vertices do.
+    void solve_chain() {
+        ChainSystem<Scalar, Vec> system(inverse_masses_, positions_);
+        const std::vector<double> taut = tautness();
+        for (std::size_t j = 0; j < chain_.size(); ++j) {
+            const Edge& edge = edges_[chain_[j]];
+            const Coefficients& k = coefficients_[chain_[j]];
+            const Vec difference = positions_[j + 1] - positions_[j];
+            const Scalar length = difference.length();
+            auto& segment = system.segment(j);
+            segment.rest = static_cast<Scalar>(edge.rest);
+            segment.softness = k.r * k.d;
+            segment.multiplier = k.d > 0 ? multipliers_[chain_[j]] / k.d : 0;
+            segment.change = 0;
+            if (length > 0) {
+                const Vec moved = difference - (previous_[j + 1] - previous_[j]);
+                segment.change =
+                    k.c * std::clamp(static_cast<Scalar>(edge.rest * taut[j]) - length, -length, length) -
+                    segment.softness * segment.multiplier - k.damping * system.direction(j).dot(moved);
+            }
+        }
+        const std::vector<Scalar> change = system.solve();
+        const std::vector<Vec> movements = system.movements(change);
+        for (std::size_t j = 0; j < chain_.size(); ++j) {
+            multipliers_[chain_[j]] += change[j] * coefficients_[chain_[j]].d;
+        }
+        for (std::size_t p = 0; p < positions_.size(); ++p) {
+            positions_[p] = positions_[p] + movements[p];
+        }
+    }
+
+    // What rest lengths are multiplied by between two pins that are further apart, but for 2^-24, than the
+    // rope between them is long.
+    std::vector<double> tautness() const {
+        std::vector<double> result(chain_.size(), 1);
+        std::size_t pin = positions_.size();
+        double length = 0;
+        for (std::size_t i = 0; i < positions_.size(); ++i) {
+            if (inverse_masses_[i] == 0) {
+                if (pin < i) {
+                    const double apart = (positions_[i].widened() - positions_[pin].widened()).length();
+                    for (std::size_t j = pin; j < i; ++j) {
+                        result[j] = std::max(1.0, apart / length + std::ldexp(1, -24));
+                    }
+                }
+                pin = i;
+                length = 0;
+            }
+            length += i < chain_.size() ? edges_[chain_[i]].rest : 0;
+        }
+        return result;
+    }
+
     Settings settings_;
     Scalar h_;
     support::Vector place_;
     std::vector<Edge> edges_;
+    std::vector<std::size_t> chain_; // the edges of a rope that is solved directly
     std::vector<double> masses_;
     std::vector<Scalar> inverse_masses_;
     std::vector<Vec> positions_, previous_, velocities_, targets_;

@@ -4,6 +4,12 @@
 
 namespace support {
 
+std::vector<double> Chain::masses() const {
+    std::vector<double> result(segments + 1, particle_mass);
+    result.back() = end_mass > 0 ? end_mass : particle_mass;
+    return result;
+}
+
 Asset Chain::build(const lks_allocator& allocator) const {
     std::vector<double> points;
     const Vector step = direction * (length / segments / direction.length());
@@ -11,7 +17,7 @@ Asset Chain::build(const lks_allocator& allocator) const {
         const Vector point = step * i;
         points.insert(points.end(), {point.x, point.y, point.z});
     }
-    const std::vector<double> masses(segments + 1, particle_mass);
+    const std::vector<double> point_masses = masses();
     lks_rope_def def = lks_default_rope_def();
     def.segments = 0;
     def.length = 0;
@@ -19,9 +25,10 @@ Asset Chain::build(const lks_allocator& allocator) const {
     def.points = points.data();
     def.mass = 0;
     def.linear_density = 0;
-    def.vertex_masses = masses.data();
+    def.vertex_masses = point_masses.data();
     def.stretch = stretch;
-    def.bend = off;
+    def.bend = bend;
+    def.solver = solver;
     def.particle_radius = 0;
     def.allocator = allocator;
     return Asset(def);

@@ -23,6 +23,11 @@ struct Chain {
     double particle_mass = 1;
     lks_distance_material stretch = stiff();
     Vector direction{1, 0, 0};
+    std::uint32_t solver = LKS_ROPE_AUTOMATIC;
+    double end_mass = 0; // of the last particle; 0: like the others
+    lks_distance_material bend = off;
+
+    std::vector<double> masses() const;
 
     Asset build(const lks_allocator& allocator = {}) const;
 };

@@ -79,13 +79,30 @@ typedef struct lks_cloth_def {
 LKS_API lks_cloth_def lks_default_cloth_def(void);
 LKS_API lks_result lks_asset_create_cloth(const lks_cloth_def* def, lks_asset** asset);
 
+/* How the stretch of a rope is solved.
+ *
+ * Swept: one segment after the other, as in cloth. Cheap; the more stretched the finer the rope and the
+ * heavier what hangs on it: about 3.5 · g · h² · load / (mass of a point · length of a segment), h being a
+ * substep. Direct: all segments at once, exactly, whatever the masses (XPBD eq. 16 and 26), at several times
+ * the cost. Automatic: direct where mass of the rope > 400 / m · lightest point · length of its segment and
+ * the rope has 2 to LKS_MAX_DIRECT_SEGMENTS segments (sweeps then leave more than 1 % at 60 Hz × 20
+ * substeps), else swept. What else hangs on a rope, by attachments, is not known to it: choose direct where
+ * that is heavy. docs/ropes.md has cost and error of both. */
+typedef enum lks_rope_solver {
+    LKS_ROPE_AUTOMATIC = 0,
+    LKS_ROPE_SWEPT = 1,
+    LKS_ROPE_DIRECT = 2
+} lks_rope_solver;
+
+#define LKS_MAX_DIRECT_SEGMENTS 16384u
+
 /* A rope: from a length (straight along local +x from the origin, `segments` equal parts) or from a polyline
  * (point_count > 0; one segment between each two points). Bend constraints join points two apart. */
 typedef struct lks_rope_def {
     uint32_t struct_size; /* set by lks_default_rope_def */
     uint32_t segments;    /* 1 .. 1048575 */
     uint32_t point_count; /* polyline: 2 .. 1048576 */
-    uint32_t reserved;    /* 0 */
+    uint32_t solver;      /* an lks_rope_solver; direct needs stretch to be enabled */
     double length;        /* metres, above 0 and at most 60 */
     const double* points; /* polyline: point_count × (x, y, z), metres; read during the call only */
     /* Exactly one of these three is given; the others are 0 or null. Each point must come to 1e-8 .. 1e6 kg.

@@ -23,11 +23,6 @@ lks_result create_asset(const Def* def, lks_asset** asset, lks_asset::Kind kind,
         return report(def->error, LKS_ERROR_NULL_ARGUMENT,
                       Sentence() << "There is no place for the new asset: asset is null.");
     }
-    if (def->reserved != 0) {
-        return report(def->error, LKS_ERROR_INVALID_ARGUMENT,
-                      Sentence() << "The definition's reserved field is " << def->reserved
-                                 << "; it must be 0.");
-    }
     if (!allocator_is_valid(def->allocator)) {
         return report(def->error, LKS_ERROR_INVALID_ARGUMENT,
                       Sentence() << "The asset's allocator has only one of its two functions.");
@@ -70,6 +65,10 @@ lks_cloth_def lks_default_cloth_def(void) {
 
 lks_result lks_asset_create_cloth(const lks_cloth_def* def, lks_asset** asset) {
     return create_asset(def, asset, lks_asset::Kind::cloth, [def](Build& build, lks_asset& made) {
+        if (def->reserved != 0) {
+            return build.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "The definition's reserved field is "
+                                                                     << def->reserved << "; it must be 0.");
+        }
         const struct {
             const char* name;
             const lks_distance_material& material;

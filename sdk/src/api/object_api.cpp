@@ -276,8 +276,9 @@ lks_result lks_object_constraint_force(const lks_world* world, lks_object_id obj
     const std::int64_t multiplier = found->multipliers[constraint];
     const std::uint64_t magnitude = multiplier < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(multiplier)
                                                    : static_cast<std::uint64_t>(multiplier);
-    const fixed::Scaled effective = effective_inverse_mass(
-        asset, world->rate, {found->recorded_pins.data(), found->recorded_pins.size()}, constraint);
+    const fixed::Scaled effective =
+        multiplier_scale(found->coefficients(), asset, world->rate,
+                         {found->recorded_pins.data(), found->recorded_pins.size()}, constraint);
     std::int64_t newtons = 0;
     if (!effective.is_zero()) {
         const fixed::Scaled inverse_h = world->rate.inverse_h();

@@ -58,7 +58,7 @@ struct lks_asset {
         : allocator(memory), vertex_to_particle(memory), particle_to_vertex(memory), rest_positions(memory),
           inverse_masses(memory), masses(memory), constraints(memory), rest_lengths(memory),
           rest_mantissas(memory), batches(memory), runs(memory), incident_offsets(memory),
-          incident_constraints(memory), triangles(memory) {}
+          incident_constraints(memory), chain(memory), triangles(memory) {}
 
     lks_allocator allocator;
     mutable std::atomic<std::uint32_t> holders{1}; // the caller, and each world that knows it
@@ -80,6 +80,9 @@ struct lks_asset {
     // Constraints of particle p: incident_constraints[incident_offsets[p] .. incident_offsets[p + 1]).
     lks::Array<std::uint32_t> incident_offsets;
     lks::Array<std::uint32_t> incident_constraints;
+
+    // Of a rope that is solved directly: the constraint of each segment, in their order.
+    lks::Array<std::uint32_t> chain;
 
     lks::Array<std::uint32_t> triangles; // the caller's numbering, three a triangle
 

@@ -44,6 +44,7 @@ std::uint64_t compute_fingerprint(const lks_asset& asset) {
         hash.add_u32(asset.constraints[i].b);
         hash.add_i64(asset.rest_lengths[i]);
     }
+    hash.add_u32(asset.chain.empty() ? 0 : 1);
     return hash.finish();
 }
 

@@ -103,12 +103,13 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
             batches[b].equal_shares = batches[b].equal_shares && shares_a[i] == shares_b[i];
         }
     }
-    return true;
+    return chain.build(asset, terms[LKS_CONSTRAINT_STRETCH].softness);
 }
 
 bool Coefficients::copy(const Coefficients& other) {
     if (!shares_a.resize(other.shares_a.size()) || !shares_b.resize(other.shares_b.size()) ||
-        !relaxations.resize(other.relaxations.size()) || !batches.resize(other.batches.size())) {
+        !relaxations.resize(other.relaxations.size()) || !batches.resize(other.batches.size()) ||
+        !chain.copy(other.chain)) {
         return false;
     }
     std::copy(std::begin(other.families), std::end(other.families), std::begin(families));
@@ -121,6 +122,7 @@ bool Coefficients::copy(const Coefficients& other) {
 
 void Coefficients::update_particle(const lks_asset& asset, const StepRate& rate,
                                    const PinnedParticles& pinned, std::uint32_t particle) {
+    chain.update_particle(asset, particle, pinned.contains(particle), pinned.count);
     const std::uint32_t first = asset.incident_offsets[particle];
     const std::uint32_t last = asset.incident_offsets[particle + 1];
     std::uint32_t batch = 0;
@@ -158,12 +160,15 @@ void Coefficients::update_constraint(const lks_asset& asset, const StepRate& rat
     }
 }
 
-fixed::Scaled effective_inverse_mass(const lks_asset& asset, const StepRate& rate,
-                                     const PinnedParticles& pinned, std::uint32_t constraint) {
+fixed::Scaled multiplier_scale(const Coefficients& coefficients, const lks_asset& asset, const StepRate& rate,
+                               const PinnedParticles& pinned, std::uint32_t constraint) {
     const Constraint& ends = asset.constraints[constraint];
     const Batch* batch = std::upper_bound(asset.batches.begin(), asset.batches.end(), constraint,
                                           [](std::uint32_t i, const Batch& b) { return i < b.first; });
     const std::uint32_t family = (batch - 1)->family;
+    if (!coefficients.chain.empty() && family == LKS_CONSTRAINT_STRETCH) {
+        return coefficients.chain.reference.times_power_of_two(-coefficients.chain.multiplier_exponent);
+    }
     return inverse_mass(asset, pinned, ends.a) + inverse_mass(asset, pinned, ends.b) +
            family_terms(asset.families[family], rate).softness;
 }

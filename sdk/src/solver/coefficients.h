@@ -14,6 +14,7 @@
 
 #include "asset/asset.h"
 #include "kernels/distance_task.h"
+#include "solver/chain_coefficients.h"
 #include "solver/step_rate.h"
 
 namespace lks {
@@ -42,7 +43,8 @@ struct PinnedParticles {
 class Coefficients {
 public:
     explicit Coefficients(const lks_allocator& allocator)
-        : shares_a(allocator), shares_b(allocator), relaxations(allocator), batches(allocator) {}
+        : shares_a(allocator), shares_b(allocator), relaxations(allocator), batches(allocator),
+          chain(allocator) {}
 
     // All constraints, nothing pinned. False: no memory.
     [[nodiscard]] bool build(const lks_asset& asset, const StepRate& rate);
@@ -58,14 +60,16 @@ public:
     Array<std::uint32_t>
         relaxations; // r, Unit, by constraint, padded; empty where one iteration makes it needless
     Array<BatchCoefficients> batches;
+    ChainCoefficients chain; // of a rope that is solved directly; otherwise empty
 
 private:
     void update_constraint(const lks_asset& asset, const StepRate& rate, const PinnedParticles& pinned,
                            std::uint32_t constraint, std::uint32_t batch);
 };
 
-// D of one constraint in 1/kg, for the read-out of its force λ/h² = Λ/(D·h²).
-fixed::Scaled effective_inverse_mass(const lks_asset& asset, const StepRate& rate,
-                                     const PinnedParticles& pinned, std::uint32_t constraint);
+// D of one constraint in 1/kg, for the read-out of its force λ/h² = Λ/(D·h²). For the segments of a rope that
+// is solved directly the R that their multipliers are carried with (solver/chain_coefficients.h).
+fixed::Scaled multiplier_scale(const Coefficients& coefficients, const lks_asset& asset, const StepRate& rate,
+                               const PinnedParticles& pinned, std::uint32_t constraint);
 
 } // namespace lks

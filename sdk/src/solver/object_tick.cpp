@@ -5,6 +5,7 @@
 #include "collide/broad_phase.h"
 #include "collide/contact.h"
 #include "fixed/formats.h"
+#include "solver/chain.h"
 #include "solver/distance.h"
 #include "solver/local_frame.h"
 #include "solver/pins.h"
@@ -94,9 +95,37 @@ private:
         }
     }
 
+    // A rope that is solved directly comes last, so that an iteration ends with no segment stretched.
     void project_batches() {
+        const bool directly = !coefficients_.chain.empty();
         for (std::uint32_t batch = 0; batch < asset_.batches.size(); ++batch) {
-            project_batch(batch);
+            if (!directly || asset_.batches[batch].family != LKS_CONSTRAINT_STRETCH) {
+                project_batch(batch);
+            }
+        }
+        if (directly) {
+            solve_rope();
+        }
+    }
+
+    void solve_rope() {
+        const FamilyCoefficients& stretch = coefficients_.families[LKS_CONSTRAINT_STRETCH];
+        const DistanceArrays arrays = distance_arrays();
+        if (!solve_chain(coefficients_.chain, stretch, arrays, scratch_.chain.data())) {
+            sweep_stretch();
+            sweep_stretch();
+            mend_chain(coefficients_.chain, stretch, arrays, scratch_.chain.data());
+        }
+    }
+
+    // Its multipliers are the direct solve's alone.
+    void sweep_stretch() {
+        for (std::uint32_t batch = 0; batch < asset_.batches.size(); ++batch) {
+            if (asset_.batches[batch].family == LKS_CONSTRAINT_STRETCH) {
+                DistanceTask task = scratch_.batches[batch];
+                task.arrays.multipliers = nullptr;
+                world_.kernels->project_distances(task);
+            }
         }
     }
 

@@ -5,6 +5,7 @@
 
 #include "kernels/distance_task.h"
 #include "memory/array.h"
+#include "solver/chain.h"
 #include "solver/object.h"
 
 namespace lks {
@@ -12,6 +13,7 @@ namespace lks {
 struct TickScratch {
     Array<std::uint32_t> candidates; // colliders near the object at work
     Array<DistanceTask> batches;     // of the object at work, by batch
+    Array<ChainWork> chain;          // room for the longest rope that is solved directly
     lks_world_counters counters{};   // of this tick
 };
 

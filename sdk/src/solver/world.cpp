@@ -21,6 +21,7 @@ lks_world::lks_world(const lks_world_def& def)
     for (lks::TickScratch& worker : scratch) {
         worker.candidates.set_allocator(allocator);
         worker.batches.set_allocator(allocator);
+        worker.chain.set_allocator(allocator);
     }
 }
 
@@ -105,7 +106,8 @@ const KnownAsset* lks_world::know_asset(const lks_asset& asset) {
         return nullptr;
     }
     for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
-        if (!scratch[worker].batches.reserve(asset.batches.size())) {
+        if (!scratch[worker].batches.reserve(asset.batches.size()) ||
+            !scratch[worker].chain.reserve(asset.chain.empty() ? 0 : asset.chain.size() + 1)) {
             return nullptr;
         }
     }
@@ -130,8 +132,10 @@ void lks_world::forget_assets(std::size_t count) {
 
 Object* lks_world::make_object(const KnownAsset& known, bool record_forces) const {
     auto* object = lks::create<Object>(allocator, allocator, *known.asset, *known.coefficients);
-    // Λ is carried from one iteration to the next where anything is soft; otherwise only for its read-out.
-    const bool carried = !known.coefficients->relaxations.empty();
+    // Λ is carried from one iteration to the next where anything is soft or a rope's tension counts;
+    // otherwise only for its read-out.
+    const bool carried = !known.coefficients->relaxations.empty() ||
+                         (rate.iterations > 1 && !known.coefficients->chain.empty());
     if (object != nullptr && !object->allocate(record_forces, record_forces || carried, keep_previous)) {
         destroy_object(object);
         return nullptr;

@@ -1,0 +1,61 @@
+// All segments of a rope at once: XPBD eq. 16 with the damping of eq. 26 is tridiagonal for a chain, and is
+// solved exactly, instead of one segment after the other.
+//
+// With inverse masses w, softness σ = α̃/(1+γ) and unit vectors n along the segments, the row of segment j is
+//
+//     (w_j + w_j+1 + σ)·λ_j − w_j·(n_j-1·n_j)·λ_j-1 − w_j+1·(n_j·n_j+1)·λ_j+1
+//         = −c·C_j − σ·λ_j (so far) − γ'·n·(motion)
+//
+// It is eliminated from the far end. What hangs behind segment j then counts as one inverse mass t_j, and
+// with d_j = w_j + t_j + σ, x_j = w_j/d_j, and s the sine between neighbours,
+//
+//     t_j-1 = x_j·(t_j + σ + w_j·s²)      a sum of what is positive: nothing cancels, for any mass ratio
+//     λ_j   = (b_j + ...)/d_j + x_j·(n_j-1·n_j)·λ_j-1
+//
+// A pinned particle has w = 0, and cuts the chain in two by itself; so does a segment of length zero, which
+// has no direction.
+//
+// Eq. 15 drops how a tension turns with its segment (the geometric stiffness). Beyond (hω)² = 1, ω² being
+// four times the tension over mass and length, a chain that is solved exactly therefore swings itself to
+// pieces. What κ = w·|λ|/L exceeds 1/4 by is taken implicitly: the movements Δ° = w·p of the solve become
+//
+//     (1 + κ_l + κ_r)·Δ_i − κ_l·Δ_i-1 − κ_r·Δ_i+1 = Δ°_i
+//
+// of which the part across the rope is kept: along it the solve is right already. The system is eliminated in
+// means with weights in [0, 1], of movement with movement. Below 1/4 there is nothing to do, and it costs
+// nothing. In a rope without pins the mean of what it changed is taken off again: momentum is kept.
+//
+// Both hold while segments turn by little. A rope that was blown apart, its segments at all angles and far
+// too long, a solve would blow further, for ever; sweeps are slow but bring it together from anywhere. So a
+// torn rope is swept first, and then solved for changes that are short against its segments.
+#pragma once
+
+#include <cstdint>
+
+#include "fixed/vector.h"
+#include "kernels/distance_task.h"
+#include "solver/coefficients.h"
+
+namespace lks {
+
+// What one solve remembers of a segment and of the particle at its near end. No state.
+struct ChainWork {
+    fixed::Direction direction; // zero: none
+    std::uint32_t give;         // what the far end takes of the near one's movement, Unit
+    std::int64_t carried;       // this times the multiplier before ...
+    std::int64_t own;           // ... and this make the multiplier
+    std::uint64_t stiffness;    // κ beyond what is stable by itself, Unit
+    fixed::Vec3 movement;       // Coordinate
+    fixed::Vec3 gathered;
+};
+
+// One iteration. `work` has room for all particles. False, and nothing is changed, where a segment is torn:
+// longer than twice its rest length, more where it is soft.
+[[nodiscard]] bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
+                               const DistanceArrays& arrays, ChainWork* work);
+
+// The same for a torn rope, whose segments have been swept: changes each by half its length at most.
+void mend_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
+                const DistanceArrays& arrays, ChainWork* work);
+
+} // namespace lks
