@@ -10,6 +10,7 @@ inline constexpr const char* snapshots_name = "snapshots";
 inline constexpr const char* overhead_name = "overhead";
 inline constexpr const char* ragdolls_name = "ragdolls_100";
 inline constexpr const char* pile_name = "ragdolls_pile";
+inline constexpr const char* ropes_name = "ropes_swing";
 inline constexpr const char* accuracy_name = "accuracy";
 
 // Nanoseconds a projection by itself, the same within a tick, with two workers, and milliseconds a tick;
@@ -24,6 +25,10 @@ void measure_overhead(int rounds, Results& results);
 // gained, beside Bullet's rigid bodies; save, load and hash.
 void measure_ragdolls(int rounds, Results& results);
 void measure_pile(int rounds, Results& results);
+// A rope of 99 segments swings for three seconds, its end 1 or 10,000 times as heavy as its points:
+// nanoseconds a segment and substep of a whole tick, and the worst stretch of any segment, swept and solved
+// at once.
+void measure_ropes(int rounds, Results& results);
 // Ours and float32 on cloths of 1,000 to 1,000,000 constraints.
 void measure_growth(int rounds, Results& results);
 // A 64² cloth that falls and swings for two seconds: milliseconds a tick, and the root mean square of the

@@ -98,6 +98,7 @@ WorkloadAsset::WorkloadAsset(const Workload& workload, const lks_allocator& allo
     const std::vector<double> masses(std::size_t{side} * (workload.shape == Shape::rope ? 1 : side), 0.001);
     if (workload.shape == Shape::rope) {
         lks_rope_def def = lks_default_rope_def();
+        def.solver = LKS_ROPE_SWEPT; // projections are what is measured
         def.length = 2;
         def.segments = side - 1;
         def.linear_density = 0;

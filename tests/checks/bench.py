@@ -46,6 +46,10 @@ for fall in "ragdolls_100", "ragdolls_pile":
     value(results, "ticks", "")
     for measured in "whole tick", "slowest tick", "snapshot, save", "snapshot, load":
         value(results, measured, "8 substeps")
+ropes = measure("ropes_swing")
+for variant in "swept, 10 substeps", "at once, 10 substeps":
+    value(ropes, "tick a segment, 1:10,000", variant)
+    value(ropes, "worst stretch, 1:10,000", variant)
 
 refused = run(program, "bench", "clot_64", expected=2)
 if "'clot_64'" not in refused.stderr:
