@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "reference/asset_model.h"
 #include "reference/xpbd.h"
 #include "support/builders.h"
 

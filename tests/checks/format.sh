@@ -4,7 +4,7 @@
 # usage: format.sh SOURCE-FOLDER [--fix]
 set -euo pipefail
 cd "$1"
-folders=(sdk render demos tests bench)
+folders=(sdk render demos tests bench accuracy)
 
 mapfile -t sources < <(find "${folders[@]}" -type f \( -name '*.h' -o -name '*.c' -o -name '*.cpp' \) | sort)
 [ ${#sources[@]} -gt 0 ]

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "reference/model.h"
+#include "reference/asset_model.h"
 #include "reference/xpbd.h"
 #include "support/builders.h"
 

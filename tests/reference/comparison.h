@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "reference/model.h"
+#include "reference/asset_model.h"
 #include "reference/xpbd.h"
 #include "support/handles.h"
 

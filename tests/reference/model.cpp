@@ -5,26 +5,44 @@
 
 namespace reference {
 
-Model model_of(const support::World& world, lks_object_id object, const support::Asset& asset,
-               const lks_vec3& place, const std::vector<double>& masses, const Materials& materials,
-               EdgeOrder order) {
-    Model model;
-    model.positions = world.positions_from(object, place);
-    model.masses = masses;
-    for (const lks_constraint_info& info : asset.constraints()) {
+Triangle make_triangle(const std::array<std::uint32_t, 3>& corners,
+                       const std::array<std::array<double, 2>, 3>& rest, double young, double poisson) {
+    const double ux = rest[1][0] - rest[0][0];
+    const double uy = rest[1][1] - rest[0][1];
+    const double vx = rest[2][0] - rest[0][0];
+    const double vy = rest[2][1] - rest[0][1];
+    const double twice_area = ux * vy - uy * vx;
+    Triangle triangle{};
+    triangle.corners = corners;
+    triangle.slopes[1] = {vy / twice_area, -vx / twice_area};
+    triangle.slopes[2] = {-uy / twice_area, ux / twice_area};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        triangle.slopes[0][axis] = -triangle.slopes[1][axis] - triangle.slopes[2][axis];
+    }
+    const double scale = 2 / (young * twice_area);
+    triangle.compliance = {
+        {{scale, -poisson * scale, 0}, {-poisson * scale, scale, 0}, {0, 0, 2 * (1 + poisson) * scale}}};
+    return triangle;
+}
+
+std::vector<Edge> edges_of(const lks_asset* asset, const Materials& materials, EdgeOrder order) {
+    std::vector<Edge> edges;
+    for (std::uint32_t i = 0; i < lks_asset_constraint_count(asset); ++i) {
+        lks_constraint_info info{};
+        lks_asset_constraint(asset, i, &info);
         const lks_distance_material& material = materials[info.family];
-        model.edges.push_back({info.vertex_a, info.vertex_b, support::metres(info.rest_length),
-                               material.compliance, material.damping, info.family});
+        edges.push_back({info.vertex_a, info.vertex_b, support::metres(info.rest_length), material.compliance,
+                         material.damping, info.family});
     }
     if (order == EdgeOrder::index) {
-        std::sort(model.edges.begin(), model.edges.end(), [](const Edge& left, const Edge& right) {
+        std::sort(edges.begin(), edges.end(), [](const Edge& left, const Edge& right) {
             const auto key = [](const Edge& edge) {
                 return std::make_tuple(std::min(edge.a, edge.b), std::max(edge.a, edge.b));
             };
             return key(left) < key(right);
         });
     }
-    return model;
+    return edges;
 }
 
 std::vector<std::size_t> segments_of(const std::vector<Edge>& edges) {

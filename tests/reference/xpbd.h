@@ -51,7 +51,8 @@ public:
     // `place` moves the scene away from the origin, where float32 has fewer bits left.
     Solver(const Model& model, const Settings& settings, const support::Vector& place = {})
         : settings_(settings), h_(static_cast<Scalar>(1 / (settings.tick_rate_hz * settings.substeps))),
-          place_(place), edges_(model.edges), chain_(model.chain) {
+          place_(place), edges_(model.edges), centre_(model.ball.centre + place),
+          radius_(static_cast<Scalar>(model.ball.radius)), chain_(model.chain) {
         for (std::size_t i = 0; i < model.positions.size(); ++i) {
             positions_.push_back(Vec(model.positions[i] + place));
             velocities_.emplace_back();
@@ -61,6 +62,9 @@ public:
         multipliers_.resize(edges_.size());
         previous_ = positions_;
         targets_ = positions_;
+        for (const std::uint32_t particle : model.pins) {
+            pin(particle);
+        }
     }
 
     void pin(std::size_t particle) {
@@ -90,6 +94,7 @@ public:
                     if (!chain_.empty()) {
                         solve_chain();
                     }
+                    leave_ball();
                 }
                 for (std::size_t p = 0; p < positions_.size(); ++p) {
                     velocities_[p] = (positions_[p] - previous_[p]) * (1 / h_);
@@ -100,6 +105,7 @@ public:
 
     // In metres, with the place taken off again.
     support::Vector position(std::size_t particle) const { return positions_[particle].widened() - place_; }
+    support::Vector velocity(std::size_t particle) const { return velocities_[particle].widened(); }
     std::size_t size() const { return positions_.size(); }
 
     double kinetic_energy() const {
@@ -191,6 +197,19 @@ private:
         positions_[edge.b] = positions_[edge.b] - difference * (k.s_b * relative);
     }
 
+    void leave_ball() {
+        if (!(radius_ > 0)) {
+            return;
+        }
+        for (std::size_t p = 0; p < positions_.size(); ++p) {
+            const Vec from_centre = positions_[p] - centre_;
+            const Scalar distance = from_centre.length();
+            if (distance < radius_ && distance > 0 && inverse_masses_[p] != 0) {
+                positions_[p] = centre_ + from_centre * (radius_ / distance);
+            }
+        }
+    }
+
     // Particles stand in the order of the rope, as vertices do.
     void solve_chain() {
         ChainSystem<Scalar, Vec> system(inverse_masses_, positions_);
@@ -248,6 +267,8 @@ private:
     Scalar h_;
     support::Vector place_;
     std::vector<Edge> edges_;
+    Vec centre_;
+    Scalar radius_;
     std::vector<std::size_t> chain_; // the edges of a rope that is solved directly
     std::vector<double> masses_;
     std::vector<Scalar> inverse_masses_;

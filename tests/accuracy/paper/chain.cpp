@@ -1,0 +1,35 @@
+// The paper's chain: the force at its fixed end, read out of the SDK, against the exact implicit step.
+#include <doctest/doctest.h>
+
+#include <cstdio>
+
+#include "accuracy/paper.h"
+
+using namespace lks_accuracy;
+using reference::Engine;
+
+TEST_CASE("the chain's force is within 6 %, 2 % and 0.5 % of Newton at 50, 100 and 1000 iterations") {
+    const std::vector<ChainRun> runs = run_chain({Engine::fixed_point}, 125, {50, 100, 1000});
+    const double most[] = {0.06, 0.02, 0.005};
+    REQUIRE(runs.size() == 4);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const ChainRun& run = runs[i + 1];
+        std::printf(
+            "chain, %4d iterations: force off by %.2f %% at most, %.2f %% of the peak with the start\n",
+            run.iterations, 100 * run.worst_error, 100 * run.worst_of_peak);
+        INFO(run.iterations << " iterations");
+        CHECK(run.worst_error <= most[i]);
+        CHECK(run.worst_of_peak <= most[i]);
+    }
+    // The force is there: 20 kg that fall on their chain pull with more than half their weight.
+    CHECK(runs[0].forces.back() > 100);
+}
+
+TEST_CASE("float32's own rounding spoils the force at 1000 iterations, fixed-point's does not") {
+    const std::vector<ChainRun> runs =
+        run_chain({Engine::fixed_point, Engine::single_precision}, 125, {1000});
+    REQUIRE(runs.size() == 3);
+    std::printf("chain, 1000 iterations: fixed-point %.2f %%, float32 %.1f %%\n", 100 * runs[1].worst_error,
+                100 * runs[2].worst_error);
+    CHECK(runs[2].worst_error > 20 * runs[1].worst_error);
+}
