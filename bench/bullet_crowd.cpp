@@ -45,6 +45,11 @@ public:
         for (const lks_transform& place : crowd.places) {
             add_humanoid(crowd, transform(place));
         }
+        for (const std::unique_ptr<btRigidBody>& body : bodies_) {
+            if (body->getMass() > 0) {
+                body->setLinearVelocity(vector(crowd.velocity));
+            }
+        }
     }
     ~BulletCrowd() override {
         for (const std::unique_ptr<btTypedConstraint>& joint : joints_) {

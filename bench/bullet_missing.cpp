@@ -11,6 +11,10 @@ std::unique_ptr<Variant> make_bullet_peer(const Workload&) {
     return nullptr;
 }
 
+std::unique_ptr<Variant> make_bullet_body(const FloatCloth&, std::uint32_t, std::uint32_t, double) {
+    return nullptr;
+}
+
 std::unique_ptr<CrowdWorld> make_bullet_crowd(const Crowd&, int) {
     return nullptr;
 }

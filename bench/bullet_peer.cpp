@@ -9,18 +9,15 @@ namespace {
 
 class Bullet final : public Variant {
 public:
-    explicit Bullet(const Workload& workload)
-        : substeps_(workload.substeps), iterations_(workload.iterations) {
+    Bullet(const FloatCloth& shape, std::uint32_t objects, std::uint32_t substeps, std::uint32_t iterations,
+           double damping)
+        : substeps_(substeps), iterations_(iterations) {
         info_.m_gravity = btVector3(0, btScalar(-9.81), 0);
         info_.air_density = 0;
         info_.m_sparsesdf.Initialize();
-        const WorkloadAsset asset(workload);
-        const FloatCloth shape = make_float_cloth(*asset.get(), asset.pinned(), EdgeOrder::by_colour);
-        for (std::uint32_t i = 0; i < workload.objects; ++i) {
+        for (std::uint32_t i = 0; i < objects; ++i) {
             bodies_.push_back(make_body(shape));
-        }
-        for (std::uint32_t i = 0; i < workload.warm_ticks; ++i) {
-            tick();
+            bodies_.back()->m_cfg.kDP = btScalar(damping / (60 * substeps));
         }
     }
 
@@ -70,7 +67,6 @@ private:
         for (int i = 0; i < body->m_links.size(); ++i) {
             body->m_links[i].m_c1 = body->m_links[i].m_rl * body->m_links[i].m_rl;
         }
-        body->m_cfg.kDP = 0; // no damping, as ours
         body->m_cfg.piterations = static_cast<int>(iterations_);
         return body;
     }
@@ -88,7 +84,19 @@ bool has_bullet() {
 }
 
 std::unique_ptr<Variant> make_bullet_peer(const Workload& workload) {
-    return std::make_unique<Bullet>(workload);
+    const WorkloadAsset asset(workload);
+    const FloatCloth shape = make_float_cloth(*asset.get(), asset.pinned(), EdgeOrder::by_colour);
+    auto bullet =
+        std::make_unique<Bullet>(shape, workload.objects, workload.substeps, workload.iterations, 0);
+    for (std::uint32_t i = 0; i < workload.warm_ticks; ++i) {
+        bullet->tick();
+    }
+    return bullet;
+}
+
+std::unique_ptr<Variant> make_bullet_body(const FloatCloth& shape, std::uint32_t substeps,
+                                          std::uint32_t iterations, double damping) {
+    return std::make_unique<Bullet>(shape, 1, substeps, iterations, damping);
 }
 
 } // namespace lks_bench

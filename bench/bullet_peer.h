@@ -1,6 +1,7 @@
 // Bullet's soft body as a peer, from the package libbullet-dev; bullet_missing.cpp where it is not installed.
 #pragma once
 
+#include "plain_float.h"
 #include "variant.h"
 
 namespace lks_bench {
@@ -9,5 +10,8 @@ inline constexpr const char* bullet_name = "Bullet soft body";
 
 bool has_bullet();
 std::unique_ptr<Variant> make_bullet_peer(const Workload& workload);
+// Of one body; `damping` is the share of velocity that is lost a second. Null: no Bullet.
+std::unique_ptr<Variant> make_bullet_body(const FloatCloth& shape, std::uint32_t substeps,
+                                          std::uint32_t iterations, double damping);
 
 } // namespace lks_bench

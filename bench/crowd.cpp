@@ -75,4 +75,25 @@ CrowdPile::CrowdPile() : Crowd(true) {
     }
 }
 
+CrowdStairs::CrowdStairs() : Crowd(true) {
+    constexpr int steps = 10;
+    constexpr int rise = 170;
+    constexpr int depth = 300;
+    const auto add_step = [&](int x, int half_x, int top) {
+        walls.push_back({millimetres(x, top / 2, 0), millimetres(half_x, top / 2, 2400)});
+    };
+    add_step(-900, 900, rise * steps);
+    for (int i = 1; i < steps; ++i) {
+        add_step(depth / 2 + depth * (i - 1), depth / 2, rise * (steps - i));
+    }
+    for (int i = 0; i < 4; ++i) {
+        lks_transform place = lks_transform_identity();
+        // They lean forward, and are turned a little, each in its own way.
+        lks_rotation_from_axis_angle(0.3 * (i - 1.5), 0.2 * i, -1, 25 + 5 * i, &place.rotation);
+        place.position = millimetres(-250, rise * steps + 120, 1100 * i - 1650);
+        places.push_back(place);
+    }
+    velocity = millimetres(1500, 0, 100);
+}
+
 } // namespace lks_bench

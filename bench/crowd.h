@@ -24,6 +24,7 @@ struct Crowd {
     lks_bone bones[LKS_HUMANOID_BONES];
     lks_body_shape shapes[LKS_HUMANOID_BONES];
     std::vector<lks_transform> places; // of the humanoids' frames
+    lks_vec3 velocity{};               // of all
     std::vector<CrowdWall> walls;
 
 protected:
@@ -38,6 +39,11 @@ struct CrowdBlock : Crowd {
 // 30 of 15 bones, lying above a walled pit, as in the scene ragdoll_pile.
 struct CrowdPile : Crowd {
     CrowdPile();
+};
+
+// 4 of 15 bones abreast, who stumble off the top of a flight of ten steps, as in the scene ragdoll_stairs.
+struct CrowdStairs : Crowd {
+    CrowdStairs();
 };
 
 // An engine with the crowd in it.

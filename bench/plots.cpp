@@ -1,15 +1,12 @@
 #include "plots.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <utility>
+
+#include "gnuplot.h"
 
 namespace lks_bench {
 namespace {
-
-namespace fs = std::filesystem;
 
 // In the order in which they were measured, each once.
 std::vector<std::string> variants_of(const Results& results, const std::string& workload,
@@ -61,44 +58,6 @@ std::string colour_of(const std::string& variant) {
         }
     }
     return " lc rgb '#54278f'";
-}
-
-// One plot's commands and data, with the looks that all share.
-class Script {
-public:
-    Script(const std::string& folder, const Plot& plot) {
-        text_ = "set terminal svg size 1280,600 font 'sans,15' background '#ffffff'\n"
-                "set output '" +
-                (fs::path(folder) / plot.file).string() + "'\nset title \"" + plot.title +
-                "\"\nset grid lc '#dddddd'\nset key outside right\n";
-    }
-
-    void command(const std::string& line) { text_ += line + "\n"; }
-    // A block of data; its name.
-    std::string data(const std::string& lines) {
-        const std::string name = "$d" + std::to_string(blocks_++);
-        text_ += name + " << EOD\n" + lines + "EOD\n";
-        return name;
-    }
-    const std::string& text() const { return text_; }
-
-private:
-    std::string text_;
-    int blocks_ = 0;
-};
-
-std::string value_pair(double x, double y) {
-    char text[80];
-    std::snprintf(text, sizeof text, "%.9g %.9g\n", x, y);
-    return text;
-}
-
-std::string comma_separated(const std::vector<std::string>& parts) {
-    std::string text;
-    for (const std::string& part : parts) {
-        text += (text.empty() ? "" : ", ") + part;
-    }
-    return text;
 }
 
 void size_plot(const Results& results, Script& script) {
@@ -177,48 +136,18 @@ void error_plot(const Results& results, Script& script) {
     script.command("plot " + comma_separated(curves));
 }
 
-bool run_gnuplot(const std::string& script_file, std::string& error) {
-    const int status = std::system(("gnuplot '" + script_file + "'").c_str());
-    if (status != 0) {
-        error = "gnuplot did not draw " + script_file + ".";
-    }
-    return status == 0;
-}
-
-bool draw(const std::string& folder, const Plot& plot, const Script& script, std::string& error) {
-    const fs::path file = fs::path(folder) / (std::string(plot.file) + ".gnuplot");
-    std::ofstream stream(file);
-    stream << script.text();
-    stream.close();
-    if (!stream) {
-        error = "The file " + file.string() + " can't be written.";
-        return false;
-    }
-    const bool good = run_gnuplot(file.string(), error);
-    if (good) {
-        fs::remove(file);
-    }
-    return good;
-}
-
 } // namespace
 
 bool draw_plots(const std::string& folder, const Results& results, std::vector<Plot>& drawn,
                 std::string& error) {
-#if defined(_WIN32)
-    const char* const probe = "gnuplot --version > NUL 2>&1";
-#else
-    const char* const probe = "gnuplot --version > /dev/null 2>&1";
-#endif
-    if (std::system(probe) != 0) {
-        error = "The plots need the program gnuplot; the tables were written without them.";
+    if (!has_gnuplot(error)) {
         return false;
     }
     const auto make = [&](const Plot& plot, const auto& fill) {
-        Script script(folder, plot);
+        Script script(plot.title);
         fill(script);
         drawn.push_back(plot);
-        return draw(folder, plot, script, error);
+        return draw(folder, plot.file, script, error);
     };
     std::vector<std::string> measured;
     std::vector<std::string> with_peers;

@@ -2,37 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <thread>
 
 #include "plots.h"
+#include "report_files.h"
 #include "workloads.h"
 
 namespace lks_bench {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string processor_name() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        if (line.rfind("model name", 0) == 0 && line.find(':') != std::string::npos) {
-            return line.substr(line.find(':') + 2);
-        }
-    }
-    return "unknown processor";
-}
-
-std::string compiler_name() {
-#if defined(__clang__)
-    return "clang " __clang_version__;
-#elif defined(__GNUC__)
-    return "g++ " __VERSION__;
-#else
-    return "unknown compiler";
-#endif
-}
 
 std::string digits(double value) {
     char text[40];
@@ -144,8 +120,7 @@ std::string ratios(const Results& results) {
 }
 
 std::string markdown(const Results& results, const std::vector<Plot>& plots) {
-    std::string text = "# What Lockstitch costs\n\n" + processor_name() + ", " +
-                       std::to_string(std::thread::hardware_concurrency()) + " threads; " + compiler_name() +
+    std::string text = "# What Lockstitch costs\n\n" + machine_name() +
                        ". One thread but where it says two workers. Medians of rounds in which all variants "
                        "take turns; all variants of ours give the same bits.\n";
     text += workload_list(results);
@@ -181,31 +156,17 @@ std::string markdown(const Results& results, const std::vector<Plot>& plots) {
     return text;
 }
 
-bool write(const fs::path& path, const std::string& text, std::string& error) {
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) {
-        error = "The file " + path.string() + " can't be written.";
-    }
-    return static_cast<bool>(file);
-}
-
 } // namespace
 
 bool write_report(const std::string& folder, const Results& results, std::string& error) {
-    std::error_code failure;
-    fs::create_directories(folder, failure);
-    if (failure) {
-        error = "The folder " + folder + " can't be made: " + failure.message() + ".";
+    if (!make_folder(folder, error)) {
         return false;
     }
     std::vector<Plot> plots;
     const bool drawn = draw_plots(folder, results, plots, error);
-    return write(fs::path(folder) / "results.json", to_json(results), error) &&
-           write(fs::path(folder) / "results.csv", to_csv(results), error) &&
-           write(fs::path(folder) / "report.md", markdown(results, drawn ? plots : std::vector<Plot>()),
-                 error) &&
+    return write_file(folder, "results.json", to_json(results), error) &&
+           write_file(folder, "results.csv", to_csv(results), error) &&
+           write_file(folder, "report.md", markdown(results, drawn ? plots : std::vector<Plot>()), error) &&
            drawn;
 }
 

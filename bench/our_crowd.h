@@ -1,0 +1,25 @@
+// The crowd in our own engine.
+#pragma once
+
+#include "crowd.h"
+
+namespace lks_bench {
+
+class OurCrowd final : public CrowdWorld {
+public:
+    OurCrowd(const Crowd& crowd, std::uint32_t substeps, std::uint32_t iterations = 1);
+    ~OurCrowd() override { lks_world_destroy(world_); }
+
+    void tick() override { lks_world_step(world_); }
+    std::vector<double> joint_errors() const override;
+    double energy() const override;
+    lks_world* world() const { return world_; }
+
+private:
+    lks_world* world_ = nullptr;
+    std::vector<lks_body_id> bodies_;
+    std::vector<lks_joint_id> joints_;
+    std::vector<double> masses_;
+};
+
+} // namespace lks_bench

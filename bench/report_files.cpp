@@ -1,0 +1,60 @@
+#include "report_files.h"
+
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+namespace lks_bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string processor_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (line.rfind("model name", 0) == 0 && line.find(':') != std::string::npos) {
+            return line.substr(line.find(':') + 2);
+        }
+    }
+    return "unknown processor";
+}
+
+std::string compiler_name() {
+#if defined(__clang__)
+    return "clang " __clang_version__;
+#elif defined(__GNUC__)
+    return "g++ " __VERSION__;
+#else
+    return "unknown compiler";
+#endif
+}
+
+} // namespace
+
+std::string machine_name() {
+    return processor_name() + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads; " +
+           compiler_name();
+}
+
+bool make_folder(const std::string& folder, std::string& error) {
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    if (failure) {
+        error = "The folder " + folder + " can't be made: " + failure.message() + ".";
+    }
+    return !failure;
+}
+
+bool write_file(const std::string& folder, const std::string& name, const std::string& text,
+                std::string& error) {
+    const fs::path path = fs::path(folder) / name;
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) {
+        error = "The file " + path.string() + " can't be written.";
+    }
+    return static_cast<bool>(file);
+}
+
+} // namespace lks_bench

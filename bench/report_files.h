@@ -1,0 +1,15 @@
+// What any report needs: its folder, its files, and on what machine it was made.
+#pragma once
+
+#include <string>
+
+namespace lks_bench {
+
+std::string machine_name(); // processor, threads and compiler
+
+// False, with a sentence.
+bool make_folder(const std::string& folder, std::string& error);
+bool write_file(const std::string& folder, const std::string& name, const std::string& text,
+                std::string& error);
+
+} // namespace lks_bench
