@@ -18,10 +18,15 @@ struct SpringRun {
 };
 inline constexpr double spring_compliance = 1e-3;
 inline constexpr double spring_mass = 1;
+inline constexpr double pbd_spring_stiffness = 0.1; // k, for comparison
+reference::ParticleScene spring_scene();
 double analytic_spring_period();
+// Of elongations so many seconds apart; 0: it does not swing.
+double spring_period(const std::vector<double>& elongations, double step);
 // Of the implicit step itself: 2πh / atan(ωh).
 double implicit_spring_period(double rate_hz);
-SpringRun run_spring(reference::Engine engine, double rate_hz, int iterations, double stiffness = 1);
+SpringRun run_spring(reference::Engine engine, double rate_hz, int iterations,
+                     double stiffness = pbd_spring_stiffness);
 
 // 20 particles of 1 kg, 1 m apart, 1e-8 m/N, held at one end and let go horizontally; 100 frames. The load
 // is carried through 19 links anew in each frame: in the first ones, which start from nothing, no sweep can.

@@ -58,11 +58,21 @@ struct BenchOptions {
     std::string program; // this one, to be run under valgrind
 };
 
+struct AccuracyOptions {
+    std::vector<std::string> parts;
+    bool quick = false;
+    bool long_times = false;
+    bool list = false;
+    bool json = false;
+    std::string report;
+};
+
 int list(const ListOptions& options);
 int run(const RunOptions& options);
 int render(const RenderOptions& options);
 int check(const GoldenOptions& options);
 int bless(const GoldenOptions& options);
 int bench(const BenchOptions& options);
+int accuracy(const AccuracyOptions& options);
 
 } // namespace lks_program

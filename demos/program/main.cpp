@@ -35,6 +35,7 @@ public:
         add_run();
         add_render();
         add_bench();
+        add_accuracy();
         add_golden("check", "Compare scenes with their golden states and images", check_options_, check,
                    "Examples:\n"
                    "  lockstitch check\n"
@@ -139,6 +140,29 @@ private:
         command->callback([this] { code_ = bench(bench_options_); });
     }
 
+    void add_accuracy() {
+        CLI::App* command =
+            app_.add_subcommand("accuracy", "Measure error, and what it costs to make it smaller");
+        command->add_option("EXPERIMENT", accuracy_options_.parts,
+                            "The experiments, all by default; see --list");
+        command->add_flag("--quick", accuracy_options_.quick,
+                          "A small grid of settings: seconds instead of minutes");
+        command->add_flag("--long", accuracy_options_.long_times,
+                          "The spring for 60 seconds, the hanging cloth for 10");
+        command->add_option("--report", accuracy_options_.report,
+                            "report.md, results.json, results.csv and plots in this folder");
+        command->add_flag("--list", accuracy_options_.list, "What can be measured");
+        command->add_flag("--json", accuracy_options_.json, "As JSON");
+        command->footer(
+            "The experiments of the XPBD paper, and work-precision over substeps × iterations: ours,\n"
+            "float32, double precision, PBD and Bullet against converged solutions.\n\n"
+            "Examples:\n"
+            "  lockstitch accuracy paper_chain paper_beam\n"
+            "  lockstitch accuracy cloth_hang --quick --json\n"
+            "  lockstitch accuracy --report out/accuracy");
+        command->callback([this] { code_ = accuracy(accuracy_options_); });
+    }
+
     void add_golden(const char* name, const char* description, GoldenOptions& options,
                     int (*action)(const GoldenOptions&), const char* footer) {
         CLI::App* command = app_.add_subcommand(name, description);
@@ -202,6 +226,7 @@ private:
     RunOptions run_options_;
     RenderOptions render_options_;
     BenchOptions bench_options_;
+    AccuracyOptions accuracy_options_;
     GoldenOptions check_options_;
     GoldenOptions bless_options_;
     int code_ = 0;

@@ -3,6 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cmath>
 
 namespace reference {
@@ -12,6 +13,9 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
 constexpr int most_newton_steps = 100;
+// Added to α̃ in the matrix, not in the equations, so that pivots don't vanish where nothing is soft: a step
+// then leaves this share of the error.
+constexpr double softening = 1e-9;
 // Metres in all of one particle's error (g / m, h), relative to coordinates of about a metre.
 constexpr double converged_at = 1e-13;
 
@@ -159,6 +163,9 @@ ImplicitEuler::ImplicitEuler(const Model& model, const Settings& settings, Linea
     }
     velocities_.resize(positions_.size());
     multipliers_.resize(constraint_count(model));
+    for (const double mass : model.masses) {
+        largest_inverse_mass_ = std::max(largest_inverse_mass_, 1 / mass);
+    }
 }
 
 void ImplicitEuler::tick(int count) {
@@ -249,8 +256,9 @@ void ImplicitEuler::solve_full() {
                     }
                 }
                 for (std::size_t column = 0; column < block.rows; ++column) {
+                    const double kept = row == column ? softening * largest_inverse_mass_ : 0;
                     triplets.emplace_back(unknown, size + static_cast<int>(column),
-                                          -block.compliance[row][column] / (h_ * h_));
+                                          -block.compliance[row][column] / (h_ * h_) - kept);
                 }
             }
             rows.push_back(size);

@@ -54,6 +54,7 @@ private:
     double h_;
     std::vector<int> unknowns_; // of a particle's x in the system; -1: pinned
     int free_count_ = 0;        // times three
+    double largest_inverse_mass_ = 0;
     Points positions_, predicted_, velocities_;
     Multipliers multipliers_;
     std::vector<Residual> residuals_;

@@ -95,6 +95,25 @@ TEST_CASE("Newton solves eq. 8 and 9 to rounding, at second order, with constrai
     CHECK(last_but_one < 100 * before * before);
 }
 
+TEST_CASE("Newton keeps an inextensible rope's length to 1e-9, and carries its weight") {
+    ParticleScene scene = make_rope(8, 1, 0.1, {0, 0, 1, 0}, {0, -1, 0});
+    const auto hanging = simulate(Engine::newton, scene, {1, 1});
+    hanging->tick();
+    CHECK(hanging->force(0) + hanging->force(1) > 0);
+    double most = 0;
+    for (std::size_t edge = 0; edge < 8; ++edge) {
+        most = std::max(most, hanging->force(edge));
+    }
+    CHECK(most == doctest::Approx(8 * 0.1 * 9.81).epsilon(1e-6));
+
+    scene = make_rope(8, 1, 0.1, {0, 0, 1, 0}, {1, 0, 0});
+    const auto swinging = simulate(Engine::newton, scene, {20, 1});
+    for (int tick = 0; tick < 60; ++tick) {
+        swinging->tick();
+    }
+    CHECK(stretch_of(model_of(scene), swinging->positions()).worst < 1e-9);
+}
+
 TEST_CASE("XPBD to the letter, and in the SDK's form, is one method: 1e-12 m in a second") {
     for (const Schedule& schedule : {Schedule{10, 1}, Schedule{4, 5}}) {
         const auto literal = positions_after(Engine::xpbd, swinging_rope(), schedule, 60);

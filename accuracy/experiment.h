@@ -1,0 +1,45 @@
+// What one experiment of speed against error comes to: a row a solver and setting.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/particle_scene.h"
+
+namespace lks_accuracy {
+
+struct Quantity {
+    std::string name; // "stretch, worst"
+    std::string unit;
+    std::string meaning;
+};
+
+struct Row {
+    std::string solver;
+    reference::Schedule schedule{};
+    double nanoseconds = 0;       // a particle (or body) and tick, the least of all ticks
+    std::vector<double> errors{}; // by quantity; NaN: not defined for this solver
+
+    int passes() const { return schedule.substeps * schedule.iterations; } // projections of each constraint
+};
+
+struct Experiment {
+    std::string name;
+    std::string title;
+    std::string what; // in one sentence, what is simulated
+    std::string unit_of_work = "particle";
+    std::vector<Quantity> quantities{};
+    std::size_t main_quantity = 0; // by which settings are ranked
+    // Deviation of the same quantity between fixed-point and double precision, and between double precision
+    // and the converged reference: none where there is no such twin.
+    bool has_rounding = false;
+    std::size_t rounding = 0, discretisation = 0; // quantities
+    std::vector<Row> rows{};
+};
+
+std::string label_of(const reference::Schedule& schedule); // "20 × 1"
+
+// The row of this solver that has the least main error among those of at most so many passes; null: none.
+const Row* best_within(const Experiment& experiment, const std::string& solver, int passes);
+
+} // namespace lks_accuracy

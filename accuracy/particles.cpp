@@ -1,0 +1,301 @@
+#include "particles.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "bullet_peer.h"
+
+namespace lks_accuracy {
+namespace {
+
+using reference::Engine;
+using Positions = std::vector<support::Vector>;
+
+constexpr int force_reference_substeps = 20;
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+// What is kept of a run.
+struct Trace {
+    Positions at_deviation;
+    double worst_stretch = 0;   // of all ticks
+    double mean_stretch = 0;    // over constraints and ticks
+    double lowest = 0;          // height of the lowest vertex at the end
+    double energy = 0;          // at the end
+    std::vector<double> forces; // at the first pin, by tick
+    double nanoseconds = 0;
+};
+
+double largest_distance(const Positions& a, const Positions& b) {
+    double worst = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double distance = (a[i] - b[i]).length();
+        if (!(distance <= worst)) {
+            worst = distance; // also where it is no number
+        }
+    }
+    return worst;
+}
+
+// Bullet's soft body of the same constraints, but for those that are soft on purpose (bend): its links have
+// no compliance.
+class BulletSimulation final : public reference::Simulation {
+public:
+    BulletSimulation(const reference::ParticleScene& scene, const reference::Model& model,
+                     const reference::Schedule& schedule) {
+        constexpr double most_compliance = 1e-4;
+        lks_bench::FloatCloth shape;
+        for (std::size_t p = 0; p < scene.start.size(); ++p) {
+            const support::Vector& x = scene.start[p];
+            shape.particles.push_back({static_cast<float>(x.x), static_cast<float>(x.y),
+                                       static_cast<float>(x.z), static_cast<float>(1 / scene.masses[p])});
+        }
+        for (const std::uint32_t pin : scene.pins) {
+            shape.particles[pin].inverse_mass = 0;
+        }
+        for (const reference::Edge& edge : model.edges) {
+            if (edge.compliance <= most_compliance) {
+                shape.edges.push_back({edge.a, edge.b, static_cast<float>(edge.rest)});
+            }
+        }
+        body_ = lks_bench::make_bullet_body(shape, static_cast<std::uint32_t>(schedule.substeps),
+                                            static_cast<std::uint32_t>(schedule.iterations),
+                                            scene.linear_damping);
+    }
+
+    void tick() override { body_->tick(); }
+    Positions positions() const override {
+        Positions found;
+        for (const lks_bench::Point& point : body_->points()) {
+            found.push_back({point.x, point.y, point.z});
+        }
+        return found;
+    }
+    Positions velocities() const override { return {}; }
+    double force(std::size_t) const override { return undefined; }
+
+private:
+    std::unique_ptr<lks_bench::Variant> body_;
+};
+
+// Those constraints that are not soft on purpose: what a player sees as stretch.
+reference::Model stiff_part(const reference::Model& model, const MeasuredScene& measured) {
+    reference::Model stiff = model;
+    if (measured.has_compliance) {
+        stiff.edges.erase(std::remove_if(stiff.edges.begin(), stiff.edges.end(),
+                                         [](const reference::Edge& edge) { return edge.compliance > 0; }),
+                          stiff.edges.end());
+    }
+    return stiff;
+}
+
+Trace trace(reference::Simulation& simulation, const MeasuredScene& measured, const reference::Model& stiff) {
+    using Clock = std::chrono::steady_clock;
+    Trace result;
+    double least = std::numeric_limits<double>::infinity();
+    const int last = std::max(measured.ticks, measured.deviation_tick);
+    for (int tick = 1; tick <= last; ++tick) {
+        const Clock::time_point begin = Clock::now();
+        simulation.tick();
+        least = std::min(least, std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
+        const Positions positions = simulation.positions();
+        const reference::Stretch stretch = stretch_of(stiff, positions);
+        result.worst_stretch = std::max(result.worst_stretch, stretch.worst);
+        result.mean_stretch += stretch.mean / last;
+        if (tick == measured.deviation_tick) {
+            result.at_deviation = positions;
+        }
+        if (tick == last) {
+            result.lowest = positions[measured.lowest_vertex].y;
+            const Positions velocities = simulation.velocities();
+            result.energy = velocities.empty() ? undefined : energy_of(measured.scene, positions, velocities);
+        }
+    }
+    result.nanoseconds = least / static_cast<double>(measured.scene.start.size());
+    return result;
+}
+
+std::vector<double> forces_of(Engine engine, const MeasuredScene& measured,
+                              const reference::Schedule& schedule) {
+    reference::ParticleScene scene = measured.scene;
+    scene.record_forces = true;
+    const reference::Model model = model_of(scene);
+    const auto at_pin = std::find_if(model.edges.begin(), model.edges.end(), [&](const reference::Edge& e) {
+        return e.a == scene.pins[0] || e.b == scene.pins[0];
+    });
+    const auto simulation = simulate(engine, scene, schedule);
+    std::vector<double> forces;
+    for (int tick = 0; tick < measured.ticks; ++tick) {
+        simulation->tick();
+        forces.push_back(simulation->force(static_cast<std::size_t>(at_pin - model.edges.begin())));
+    }
+    return forces;
+}
+
+// Root mean square of the difference, relative to that of what is right.
+double force_error(const std::vector<double>& forces, const std::vector<double>& right) {
+    double off = 0;
+    double all = 0;
+    for (std::size_t i = 0; i < right.size(); ++i) {
+        off += (forces[i] - right[i]) * (forces[i] - right[i]);
+        all += right[i] * right[i];
+    }
+    return std::sqrt(off / all);
+}
+
+std::vector<reference::Schedule> schedules_of(const Grid& grid) {
+    std::vector<reference::Schedule> schedules;
+    for (const int substeps : grid.substeps) {
+        for (const int iterations : grid.iterations) {
+            if (substeps * iterations <= grid.most_passes) {
+                schedules.push_back({substeps, iterations});
+            }
+        }
+    }
+    return schedules;
+}
+
+struct Measurer {
+    const MeasuredScene& measured;
+    reference::Model model = model_of(measured.scene);
+    reference::Model stiff = stiff_part(model, measured);
+    Trace converged;
+    double start_energy = 0;
+    double energy_scale = 0; // what falls through its own length
+
+    explicit Measurer(const MeasuredScene& scene) : measured(scene) {
+        const reference::Schedule schedule{measured.reference_substeps, 1};
+        converged = trace(*simulate(Engine::double_precision, measured.scene, schedule), measured, stiff);
+        if (measured.force_at_pin) {
+            // Of the exact implicit step: with one iteration a substep, forces jump from one to the next.
+            converged.forces = forces_of(Engine::newton, measured, {force_reference_substeps, 1});
+        }
+        start_energy =
+            energy_of(measured.scene, measured.scene.start, Positions(measured.scene.start.size()));
+        double length = 0;
+        for (const support::Vector& p : measured.scene.start) {
+            length = std::max(length, (p - measured.scene.start[0]).length());
+        }
+        for (const double mass : measured.scene.masses) {
+            energy_scale += mass * 9.81 * length;
+        }
+    }
+
+    // `twin` is the trace that rounding is told from; null: this is it, or there is none.
+    Row row_of(const std::string& solver, const reference::Schedule& schedule, const Trace& found,
+               const Trace* twin) const {
+        Row row{solver, schedule, found.nanoseconds};
+        const double deviation = largest_distance(found.at_deviation, converged.at_deviation);
+        const auto add = [&](double error) { row.errors.push_back(error); };
+        add(100 * found.worst_stretch);
+        add(100 * found.mean_stretch);
+        add(deviation);
+        add(twin == nullptr ? undefined : largest_distance(found.at_deviation, twin->at_deviation));
+        if (measured.lowest_vertex > 0) {
+            add(std::abs(found.lowest - converged.lowest));
+        }
+        if (measured.force_at_pin) {
+            add(found.forces.empty() ? undefined : 100 * force_error(found.forces, converged.forces));
+        }
+        if (measured.keeps_energy) {
+            add(100 * std::abs(found.energy - start_energy) / energy_scale);
+        }
+        return row;
+    }
+};
+
+} // namespace
+
+Grid whole_grid() {
+    return {{1, 2, 5, 10, 20, 40, 80, 160}, {1, 2, 4, 10, 20, 40}, 160};
+}
+
+Grid quick_grid() {
+    return {{1, 5, 20}, {1, 4}, 20};
+}
+
+Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, const Progress& progress) {
+    Experiment experiment{measured.name, measured.title, measured.what, "particle"};
+    experiment.quantities = {
+        {"stretch, worst", "%",
+         "the most that any inextensible constraint is off its length in any tick; 0 is right"},
+        {"stretch, mean", "%", "the same, on the average over constraints and ticks"},
+        {"deviation", "m",
+         "the farthest that any particle is from the converged solution after " +
+             std::to_string(measured.deviation_tick) + " ticks"},
+        {"rounding", "m",
+         "the farthest that any particle is then from the same method in double precision at the same "
+         "setting"}};
+    if (measured.lowest_vertex > 0) {
+        experiment.quantities.push_back(
+            {"sag", "m",
+             "how far the middle of the lower edge is from its right height at the "
+             "end"});
+    }
+    if (measured.force_at_pin) {
+        experiment.quantities.push_back(
+            {"support force", "%", "root mean square error of the force at the pin, relative to the force"});
+    }
+    if (measured.keeps_energy) {
+        experiment.quantities.push_back(
+            {"energy drift", "%",
+             "energy gained or lost at the end, relative to what the whole would get "
+             "by falling through its length"});
+    }
+    experiment.has_rounding = true;
+    experiment.discretisation = 2;
+    experiment.rounding = 3;
+
+    progress(measured.name + ": reference, " + std::to_string(measured.reference_substeps) + " substeps");
+    const Measurer measurer(measured);
+    const std::vector<reference::Schedule> schedules = schedules_of(grid);
+    for (std::size_t i = 0; i < schedules.size(); ++i) {
+        const reference::Schedule& schedule = schedules[i];
+        progress(measured.name + ": " + label_of(schedule) + " (" + std::to_string(i + 1) + " of " +
+                 std::to_string(schedules.size()) + ")");
+        const auto run = [&](Engine engine) {
+            Trace found = trace(*simulate(engine, measured.scene, schedule), measured, measurer.stiff);
+            if (measured.force_at_pin && engine != Engine::pbd) {
+                found.forces = forces_of(engine, measured, schedule);
+            }
+            return found;
+        };
+        const Trace twin = run(Engine::double_precision);
+        for (const Engine engine : {Engine::fixed_point, Engine::single_precision}) {
+            experiment.rows.push_back(measurer.row_of(name_of(engine), schedule, run(engine), &twin));
+        }
+        experiment.rows.push_back(
+            measurer.row_of(name_of(Engine::double_precision), schedule, twin, nullptr));
+        if (measured.scene.ball.radius == 0) {
+            // Where nothing is soft, PBD of stiffness 1 is XPBD.
+            if (measured.has_compliance) {
+                experiment.rows.push_back(
+                    measurer.row_of(name_of(Engine::pbd), schedule, run(Engine::pbd), nullptr));
+            }
+            if (lks_bench::has_bullet()) {
+                BulletSimulation bullet(measured.scene, measurer.model, schedule);
+                Row row =
+                    measurer.row_of("Bullet", schedule, trace(bullet, measured, measurer.stiff), nullptr);
+                experiment.rows.push_back(std::move(row));
+            }
+        }
+    }
+    return experiment;
+}
+
+Rounding rounding_of(const MeasuredScene& measured, const reference::Schedule& schedule) {
+    const auto positions = [&](Engine engine, const reference::Schedule& at) {
+        const auto simulation = simulate(engine, measured.scene, at);
+        for (int tick = 0; tick < measured.deviation_tick; ++tick) {
+            simulation->tick();
+        }
+        return simulation->positions();
+    };
+    const Positions twin = positions(Engine::double_precision, schedule);
+    return {largest_distance(positions(Engine::fixed_point, schedule), twin),
+            largest_distance(positions(Engine::single_precision, schedule), twin),
+            largest_distance(twin, positions(Engine::double_precision, {measured.reference_substeps, 1}))};
+}
+
+} // namespace lks_accuracy

@@ -1,0 +1,205 @@
+#include <cmath>
+#include <cstdio>
+
+#include "accuracy_report.h"
+
+namespace lks_accuracy {
+namespace {
+
+constexpr const char* wide = " with lines lw 3";
+
+std::string percent(double share) {
+    char text[40];
+    std::snprintf(text, sizeof text, std::abs(share) < 1e-4 ? "%.1e %%" : "%.2f %%", 100 * share);
+    return text;
+}
+
+// One value a frame, from frame `first` on.
+std::string by_frame(const std::vector<double>& values, int first) {
+    std::string lines;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        lines += lks_bench::value_pair(static_cast<double>(i) + first, values[i]);
+    }
+    return lines;
+}
+
+std::string numbered(int iterations) {
+    return std::to_string(iterations) + (iterations == 1 ? " iteration" : " iterations");
+}
+
+} // namespace
+
+Section report_spring(const std::vector<SpringRun>& runs) {
+    Section section;
+    section.text =
+        "\n## The paper's spring\n\n1 kg on 1e-3 m/N, let go at 1.5 m, 100 frames. The period, and in "
+        "brackets how far it is from that of the implicit step, 2πh / atan(ωh), which no solver of this "
+        "kind can better; a spring has " +
+        digits(analytic_spring_period()) + " s.\n\n" +
+        table_head({"solver", "frames a second", "iterations", "period", "off the implicit step"});
+    Plot plot{"paper-spring.svg", "A spring at 60 frames a second",
+              lks_bench::Script("A spring at 60 frames a second")};
+    plot.script.command("set xlabel 'frame'\nset ylabel 'elongation, m'\nset xrange [0:50]\n"
+                        "set yrange [-0.6:0.6]");
+    std::vector<std::string> curves;
+    for (const SpringRun& run : runs) {
+        const double implicit = implicit_spring_period(run.rate_hz);
+        section.text += table_row({run.solver, digits(run.rate_hz), std::to_string(run.iterations),
+                                   digits(run.period) + " s", percent(run.period / implicit - 1)});
+        section.results.push_back(
+            {"paper_spring", "period",
+             run.solver + ", " + digits(run.rate_hz) + " Hz, " + numbered(run.iterations), run.period, "s"});
+        const bool pbd = run.solver == "PBD";
+        if (run.rate_hz == 60 && (pbd || run.solver == "fixed-point")) {
+            curves.push_back(
+                plot.script.data(by_frame(run.elongations, 0)) +
+                (pbd ? " with linespoints lw 1 ps 0.5 pt " + std::to_string(4 + run.iterations)
+                     : " with lines lw " + std::to_string(run.iterations == 1 ? 7 : 2)) +
+                (pbd || run.iterations == 1 ? colour_of(run.solver) : std::string(" dt 2 lc rgb '#fdd0a2'")) +
+                " title '" + run.solver + ", " + numbered(run.iterations) + "'");
+        }
+    }
+    curves.push_back("0.5 * cos(2 * pi * x / " + std::to_string(60 * analytic_spring_period()) +
+                     ") with lines lw 1 lc rgb '#969696' title 'analytic, no step'");
+    plot.script.command("set samples 1000\nplot " + lks_bench::comma_separated(curves));
+    section.plots.push_back(std::move(plot));
+    return section;
+}
+
+Section report_chain(const std::vector<ChainRun>& runs) {
+    Section section;
+    section.text =
+        "\n## The paper's chain\n\n20 particles of 1 kg, 1 m apart, 1e-8 m/N, let go horizontally, 100 "
+        "frames: the force at the fixed end against the exact implicit step (Newton). The paper's "
+        "figures are 6 %, 2 % and 0.5 % at 50, 100 and 1000 iterations.\n\n" +
+        table_head({"solver", "frames a second", "iterations",
+                    "worst after " + std::to_string(chain_frames_of_start) + " frames",
+                    "worst of all, of the peak", "first frame"});
+    Plot plot{"paper-chain.svg", "The force at a chain's fixed end",
+              lks_bench::Script("The force at a chain's fixed end, 125 frames a second")};
+    plot.script.command("set xlabel 'frame'\nset ylabel 'newtons'\nset key inside left top");
+    std::vector<std::string> curves;
+    for (const ChainRun& run : runs) {
+        const std::string name = run.solver + (run.iterations > 0 ? ", " + numbered(run.iterations) : "");
+        if (run.iterations > 0) {
+            section.text +=
+                table_row({run.solver, digits(run.rate_hz), std::to_string(run.iterations),
+                           percent(run.worst_error), percent(run.worst_of_peak), percent(run.first_error)});
+            const std::string variant = name + ", " + digits(run.rate_hz) + " Hz";
+            section.results.push_back(
+                {"paper_chain", "worst force error after the start", variant, 100 * run.worst_error, "%"});
+            section.results.push_back(
+                {"paper_chain", "worst force error of the peak", variant, 100 * run.worst_of_peak, "%"});
+        }
+        const bool ours = run.solver == "fixed-point";
+        if (run.rate_hz == 125 && (ours || run.iterations == 0 || run.iterations == 1000)) {
+            curves.push_back(plot.script.data(by_frame(run.forces, 1)) +
+                             (run.iterations == 0 ? std::string(" with lines lw 6 lc rgb '#d9d9d9'")
+                              : ours              ? " with lines lw 2 dt " +
+                                           std::to_string(run.iterations == 50    ? 3
+                                                          : run.iterations == 100 ? 2
+                                                                                  : 1) +
+                                           colour_of(run.solver)
+                                     : " with points pt 7 ps 0.4" + colour_of(run.solver)) +
+                             " title '" + name + "'");
+        }
+    }
+    plot.script.command("plot " + lks_bench::comma_separated(curves));
+    section.plots.push_back(std::move(plot));
+    return section;
+}
+
+Section report_beam(const Beam& beam) {
+    Section section;
+    const double deflection = std::abs(beam.runs.front().tip.back());
+    section.text =
+        "\n## The paper's cantilever beam\n\n1 m × 0.2 m of 40 St. Venant-Kirchhoff triangles, E = 1e5, "
+        "ν = 0.3, 50 frames of 8 ms; its tip falls " +
+        digits(deflection) + " m.\n\n" +
+        table_head({"iterations", "tip at the end, m", "farthest from Newton"});
+    Plot tip{"paper-beam.svg", "A cantilever beam", lks_bench::Script("")};
+    tip.script.command("set multiplot layout 1,2\nset title 'Height of the tip'\nset xlabel 'frame'\n"
+                       "set ylabel 'm'\nset key inside right top");
+    std::vector<std::string> curves;
+    for (const BeamRun& run : beam.runs) {
+        const bool exact = run.iterations == 0;
+        const std::string name = exact ? "Newton" : numbered(run.iterations);
+        section.text += table_row({exact ? "Newton" : std::to_string(run.iterations), digits(run.tip.back()),
+                                   percent(run.worst_distance / deflection)});
+        section.results.push_back({"paper_beam", "tip off Newton's, of the deflection", name,
+                                   100 * run.worst_distance / deflection, "%"});
+        static const char* const shades[] = {"#c6dbef", "#9ecae1", "#6baed6", "#3182bd", "#08519c"};
+        const std::size_t shade = curves.empty() ? 0 : (curves.size() - 1) % 5;
+        curves.push_back(tip.script.data(by_frame(run.tip, 1)) +
+                         (exact ? std::string(" with lines lw 7 lc rgb '#d9d9d9'")
+                                : std::string(" with lines lw 2 lc rgb '") + shades[shade] + "'") +
+                         " title '" + name + "'");
+    }
+    tip.script.command("plot " + lks_bench::comma_separated(curves));
+    tip.script.command(
+        "set title 'Residuals in frame 26'\nset xlabel 'iteration'\nset ylabel ''\nset logscale y\n"
+        "set format y '10^{%T}'\nset key inside right bottom\nset yrange [1e-9:10]");
+    tip.script.command("plot " +
+                       lks_bench::comma_separated(
+                           {tip.script.data(by_frame(beam.residual, 0)) + wide +
+                                " lc rgb '#08519c' title 'XPBD, constraints (eq. 9)'",
+                            tip.script.data(by_frame(beam.momentum_residual, 0)) + wide +
+                                " dt 2 lc rgb '#fd8d3c' title 'XPBD, momentum (eq. 8), kg·m'",
+                            tip.script.data(by_frame(beam.newton_residual, 0)) +
+                                " with linespoints lw 2 pt 7 lc rgb '#000000' title 'Newton, constraints'"}));
+    tip.script.command("unset multiplot");
+    section.plots.push_back(std::move(tip));
+    return section;
+}
+
+Section report_cloth(const ClothHang& cloth, const std::vector<SagRun>& runs) {
+    Section section;
+    section.text = "\n## The paper's hanging cloth\n\n" + std::to_string(cloth.side) + " × " +
+                   std::to_string(cloth.side) + " vertices, distance constraints of " +
+                   digits(cloth.compliance) +
+                   " m/N, one kilogram, held at two corners; PBD with k = " + digits(cloth.pbd_stiffness) +
+                   ". How far the lower edge hangs after " + digits(cloth.seconds) + " seconds.\n\n" +
+                   table_head({"solver", "iterations", "sag, m"});
+    Plot plot{"paper-cloth.svg", "Sag against iterations",
+              lks_bench::Script("Sag of a hanging cloth against iterations")};
+    plot.script.command(
+        "set xlabel 'iterations a frame'\nset ylabel 'm'\nset logscale x 2\nset yrange [0:*]");
+    std::vector<std::string> curves;
+    std::string lines;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const SagRun& run = runs[i];
+        section.text += table_row({run.solver, std::to_string(run.iterations), digits(run.sag)});
+        section.results.push_back(
+            {"paper_cloth", "sag", run.solver + ", " + numbered(run.iterations), run.sag, "m"});
+        lines += lks_bench::value_pair(run.iterations, run.sag);
+        if (i + 1 == runs.size() || runs[i + 1].solver != run.solver) {
+            curves.push_back(plot.script.data(lines) + " with linespoints lw 3 pt 7" + colour_of(run.solver) +
+                             " title '" + run.solver + "'");
+            lines.clear();
+        }
+    }
+    plot.script.command("plot " + lks_bench::comma_separated(curves));
+    section.plots.push_back(std::move(plot));
+    return section;
+}
+
+Section report_balloon(const std::vector<BalloonRun>& runs) {
+    Section section;
+    section.text =
+        "\n## The paper's balloon\n\nA sphere of 162 particles and 480 springs around a volume that is held "
+        "at 1.5 times its own, in the reference solvers (the SDK has no volume constraint). Volume "
+        "reached, of its own.\n\n" +
+        table_head({"shell, m/N", "volume, m⁶/J", "solver", "iterations", "volume", "stretch of the shell"});
+    for (const BalloonRun& run : runs) {
+        section.text += table_row({digits(run.shell_compliance), digits(run.volume_compliance), run.solver,
+                                   run.iterations == 0 ? "" : std::to_string(run.iterations),
+                                   digits(run.volume), percent(run.stretch)});
+        section.results.push_back({"paper_balloon", "volume",
+                                   run.solver + ", " + digits(run.shell_compliance) + " m/N, " +
+                                       digits(run.volume_compliance) + " m6/J, " + numbered(run.iterations),
+                                   run.volume, "of its own"});
+    }
+    return section;
+}
+
+} // namespace lks_accuracy

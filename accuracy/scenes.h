@@ -1,0 +1,32 @@
+// The scenes of cloth, rope and spring that cost and error are measured on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/particle_scene.h"
+
+namespace lks_accuracy {
+
+struct MeasuredScene {
+    std::string name;
+    std::string title;
+    std::string what;
+    reference::ParticleScene scene;
+    int ticks = 60;                 // stretch and energy are looked at until then
+    int deviation_tick = 60;        // where particles are compared, before chaos has its way
+    bool keeps_energy = false;      // nothing takes it out: no air, nothing soft
+    bool force_at_pin = false;      // of the first edge at the first pin
+    std::size_t lowest_vertex = 0;  // whose height is the sag; 0: not asked for
+    bool has_compliance = false;    // PBD can't have it
+    int reference_substeps = 640;   // in double precision, one iteration each
+    std::vector<int> recommended{}; // substeps of one iteration that docs/accuracy.md names
+};
+
+MeasuredScene rope_swing();
+MeasuredScene rope_heavy_end();
+MeasuredScene cloth_hang();
+MeasuredScene cloth_drape();
+std::vector<MeasuredScene> measured_scenes();
+
+} // namespace lks_accuracy

@@ -1,0 +1,72 @@
+"""`lockstitch accuracy` runs, says what each solver is off and what it costs, and refuses by name.
+
+usage: accuracy.py LOCKSTITCH
+"""
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+program = sys.argv[1]
+
+
+def run(*arguments, expected=0):
+    done = subprocess.run([program, "accuracy", *arguments], capture_output=True, text=True)
+    if done.returncode != expected:
+        sys.exit(f"{arguments} ended with {done.returncode}: {done.stderr}")
+    return done
+
+
+def measure(*parts):
+    return json.loads(run(*parts, "--quick", "--json").stdout)
+
+
+def value(results, measured, variant):
+    found = [r["value"] for r in results if (r["measured"], r["variant"]) == (measured, variant)]
+    if len(found) != 1 or not math.isfinite(found[0]):
+        sys.exit(f"{measured} of '{variant}' was not measured: {found}")
+    return found[0]
+
+
+rope = measure("rope_swing")
+if len({(r["measured"], r["variant"]) for r in rope}) != len(rope):
+    sys.exit("A result is there twice.")
+for solver in "fixed-point", "float32", "double":
+    if value(rope, "cost", f"{solver}, 20 × 1") <= 0:
+        sys.exit(f"{solver} costs nothing.")
+    # More work, less error.
+    few, many = (value(rope, "stretch, worst", f"{solver}, {n} × 1") for n in (5, 20))
+    if not many < few:
+        sys.exit(f"{solver} does not gain by substeps.")
+if not value(rope, "rounding", "fixed-point, 20 × 1") < value(rope, "rounding", "float32, 20 × 1"):
+    sys.exit("Fixed-point rounds more than float32.")
+stairs = measure("ragdoll_stairs")
+if not 0 < value(stairs, "joint separation, mean", "fixed-point, 20 × 1") < 0.01:
+    sys.exit("Joints on the stairs are not together.")
+
+if "'rope_swin'" not in run("rope_swin", expected=2).stderr:
+    sys.exit("An unknown experiment was not refused by name.")
+if "paper_balloon" not in run("--list").stdout:
+    sys.exit("--list does not list the balloon.")
+refused = run("paper_spring", "--report", "/dev/null/report", expected=1)
+if "/dev/null/report" not in refused.stderr:
+    sys.exit("A folder that can't be was not refused by name.")
+
+with tempfile.TemporaryDirectory() as folder:
+    drawn = shutil.which("gnuplot") is not None
+    done = run("paper_spring", "spring", "--quick", "--report", folder, expected=0 if drawn else 1)
+    if "accuracy: spring" not in done.stderr:
+        sys.exit("There was no progress.")
+    made = {path.name for path in pathlib.Path(folder).iterdir()}
+    plots = {"paper-spring.svg", "spring.svg"} if drawn else set()
+    if made != {"report.md", "results.json", "results.csv"} | plots:
+        sys.exit(f"The report consists of {sorted(made)}.")
+    text = pathlib.Path(folder, "report.md").read_text()
+    if "## The paper's spring" not in text or "| fixed-point | 60.0 | 10 |" not in text:
+        sys.exit("The report doesn't tell of the spring.")
+    if len(json.loads(pathlib.Path(folder, "results.json").read_text())) < 50:
+        sys.exit("The results are too few.")
+print("measured, refused and reported")
