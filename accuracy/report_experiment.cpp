@@ -113,7 +113,8 @@ Plot draw_experiment(const Experiment& experiment) {
     }
     script.command("set title '" + experiment.title + ": " + main.name + "'\nset logscale xy\n" +
                    "set xlabel 'nanoseconds a " + experiment.unit_of_work + " and tick'\nset ylabel '" +
-                   main.unit + "'\nset format '10^{%T}'\nset key outside bottom center maxrows 5");
+                   main.unit +
+                   "'\nset format y '10^{%T}'\nset format x '%g'\nset key outside bottom center maxrows 5");
     std::vector<std::string> curves;
     for (const std::string& solver : solvers_of(experiment)) {
         const auto add = [&](const char* style, const std::string& title, const auto& wanted) {
@@ -144,7 +145,7 @@ Plot draw_experiment(const Experiment& experiment) {
     }
 
     script.command("set title '" + experiment.title +
-                   ": where particles are'\nset xlabel 'substeps of one iteration'\n"
+                   ": where particles are'\nset format x '%g'\nset xlabel 'substeps of one iteration'\n"
                    "set ylabel 'm'");
     const auto one_iteration = [](const reference::Schedule& s) { return s.iterations == 1; };
     const auto curve = [&](const std::string& solver, std::size_t quantity, const std::string& looks) {

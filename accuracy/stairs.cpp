@@ -80,7 +80,7 @@ Experiment measure_stairs(const Grid& grid, int ticks, const Progress& progress)
             experiment.rows.push_back(fall("fixed-point", schedule, crowd, ours, ticks));
         }
         // Bullet's own iterations are ten a step, and stay so.
-        if (lks_bench::has_bullet()) {
+        if (lks_bench::has_bullet() && substeps <= grid.most_passes) {
             const auto bullet = [&] { return lks_bench::make_bullet_crowd(crowd, substeps); };
             experiment.rows.push_back(fall("Bullet", {substeps, 10}, crowd, bullet, ticks));
         }
