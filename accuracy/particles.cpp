@@ -295,6 +295,13 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
     return experiment;
 }
 
+reference::Stretch stretch_over_time(const MeasuredScene& measured, Engine engine,
+                                     const reference::Schedule& schedule) {
+    const Trace found = trace(*simulate(engine, measured.scene, schedule), measured,
+                              stiff_part(model_of(measured.scene), measured));
+    return {found.worst_stretch, found.mean_stretch};
+}
+
 Rounding rounding_of(const MeasuredScene& measured, const reference::Schedule& schedule) {
     const auto positions = [&](Engine engine, const reference::Schedule& at) {
         const auto simulation = simulate(engine, measured.scene, at);

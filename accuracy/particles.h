@@ -20,6 +20,10 @@ Grid quick_grid();
 
 Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, const Progress& progress);
 
+// Relative: the worst of all ticks, and the mean over constraints and ticks, of what is inextensible.
+reference::Stretch stretch_over_time(const MeasuredScene& measured, reference::Engine engine,
+                                     const reference::Schedule& schedule);
+
 // The largest distance of any particle at `deviation_tick`: of fixed-point from the same method in double
 // precision, and of that from the reference.
 struct Rounding {

@@ -1,0 +1,72 @@
+// What docs/accuracy.md promises of the settings that it recommends, and why it recommends substeps.
+#include <doctest/doctest.h>
+
+#include <cstdio>
+
+#include "accuracy/particles.h"
+#include "accuracy/stairs.h"
+
+using namespace lks_accuracy;
+using reference::Engine;
+
+namespace {
+
+struct Promise {
+    MeasuredScene scene;
+    int substeps;
+    double worst, mean; // stretch, %
+};
+
+} // namespace
+
+TEST_CASE("ropes and cloths stretch as little as the table of substeps says") {
+    const Promise promises[] = {
+        {rope_swing(), 10, 20, 2.2},    {rope_swing(), 20, 5, 0.55},      {rope_swing(), 40, 1.25, 0.14},
+        {rope_heavy_end(), 20, 9, 2.4}, {rope_heavy_end(), 40, 2.2, 0.6}, {rope_heavy_end(), 80, 0.5, 0.15},
+        {cloth_hang(), 10, 25, 0.52},   {cloth_hang(), 20, 8, 0.19},      {cloth_hang(), 40, 2.3, 0.062},
+        {cloth_drape(), 10, 15, 0.9},   {cloth_drape(), 20, 6.5, 0.42},   {cloth_drape(), 40, 5.5, 0.22},
+    };
+    for (const Promise& promise : promises) {
+        const reference::Stretch stretch =
+            stretch_over_time(promise.scene, Engine::fixed_point, {promise.substeps, 1});
+        std::printf("%-14s %2d substeps: stretch %.2f %% worst, %.3f %% mean\n", promise.scene.name.c_str(),
+                    promise.substeps, 100 * stretch.worst, 100 * stretch.mean);
+        INFO(promise.scene.name << ", " << promise.substeps << " substeps");
+        CHECK(100 * stretch.worst <= promise.worst);
+        CHECK(100 * stretch.mean <= promise.mean);
+        CHECK(stretch.mean > 0);
+    }
+}
+
+TEST_CASE("the same work leaves less stretch as substeps than as iterations") {
+    for (const MeasuredScene& scene : measured_scenes()) {
+        const double substeps = stretch_over_time(scene, Engine::fixed_point, {20, 1}).mean;
+        const double both = stretch_over_time(scene, Engine::fixed_point, {5, 4}).mean;
+        const double iterations = stretch_over_time(scene, Engine::fixed_point, {1, 20}).mean;
+        std::printf("%-14s mean stretch at 20 passes: 20 x 1 %.3f %%, 5 x 4 %.3f %%, 1 x 20 %.3f %%\n",
+                    scene.name.c_str(), 100 * substeps, 100 * both, 100 * iterations);
+        INFO(scene.name);
+        CHECK(substeps < 0.7 * both);
+        CHECK(both < 0.7 * iterations);
+    }
+}
+
+TEST_CASE("joints on the stairs are as near as the table of substeps says") {
+    const Experiment stairs = measure_stairs({{1, 5, 8}, {1}, 8}, 120, [](const std::string&) {});
+    const double most[][2] = {{0.1, 8}, {0.003, 1.2}, {0.001, 0.5}}; // mm, mean and worst
+    std::size_t promise = 0;
+    for (const Row& row : stairs.rows) {
+        if (row.solver == "fixed-point") {
+            std::printf(
+                "stairs, %d substeps: joints apart %.1e mm mean, %.3f mm worst; energy gained %.3f %%\n",
+                row.schedule.substeps, row.errors[0], row.errors[1], row.errors[2]);
+            INFO(row.schedule.substeps << " substeps");
+            REQUIRE(promise < 3);
+            CHECK(row.errors[0] <= most[promise][0]);
+            CHECK(row.errors[1] <= most[promise][1]);
+            CHECK(row.errors[2] <= 1);
+            ++promise;
+        }
+    }
+    CHECK(promise == 3);
+}
