@@ -76,7 +76,7 @@ Experiment measure_part(const std::string& part, const AccuracyOptions& options,
     const std::vector<MeasuredScene> scenes = measured_scenes();
     MeasuredScene scene = *std::find_if(
         scenes.begin(), scenes.end(), [&](const MeasuredScene& candidate) { return candidate.name == part; });
-    // What air brings to rest comes to rest in one place; the others are chaotic by then.
+    // Air brings it to rest; the others still swing, and are chaotic by then.
     if (options.long_times && scene.lowest_vertex > 0) {
         scene.ticks = 600;
         scene.deviation_tick = 600;

@@ -162,8 +162,8 @@ Section report_cloth(const ClothHang& cloth, const std::vector<SagRun>& runs) {
                    table_head({"solver", "iterations", "sag, m"});
     Plot plot{"paper-cloth.svg", "Sag against iterations",
               lks_bench::Script("Sag of a hanging cloth against iterations")};
-    plot.script.command(
-        "set xlabel 'iterations a frame'\nset ylabel 'm'\nset logscale x 2\nset yrange [0:*]");
+    plot.script.command("set xlabel 'iterations a frame'\nset ylabel 'm'\nset logscale x 2\nset xtics (20, "
+                        "40, 80, 160)\nset xrange [18:180]\nset yrange [0:*]");
     std::vector<std::string> curves;
     std::string lines;
     for (std::size_t i = 0; i < runs.size(); ++i) {

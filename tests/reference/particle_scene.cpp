@@ -60,6 +60,7 @@ private:
     template <typename Vectors>
     static std::vector<support::Vector> widened(const Vectors& vectors) {
         std::vector<support::Vector> found;
+        found.reserve(vectors.size());
         for (const auto& v : vectors) {
             found.push_back(v.widened());
         }
