@@ -77,6 +77,15 @@ struct Contact {
     ContactPoint points[greatest_point_count];
 };
 
+// What the search found of it.
+struct FoundContact {
+    ContactKey key;
+    bool fast;
+    std::int64_t radius_a;
+    std::int64_t radius_b;
+    Manifold manifold;
+};
+
 // What a contact knows of its bodies.
 struct ContactBodies {
     Body& a;

@@ -1,10 +1,12 @@
 #include "rigid/contact_search.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "collide/plane_motion.h"
 #include "collide/saturation.h"
 #include "rigid/sleep.h"
+#include "threads/blocks.h"
 
 namespace lks {
 namespace {
@@ -92,7 +94,7 @@ bool apart(const Piece& a, const Piece& b, std::int64_t margin) {
 
 class Search {
 public:
-    explicit Search(lks_world& world) : world_(world), scene_(world.rigid) {}
+    Search(lks_world& world, Team* team) : world_(world), scene_(world.rigid), team_(team) {}
 
     // False: somebody was woken, and it has to be done again.
     bool run() {
@@ -100,8 +102,10 @@ public:
         scene_.contacts.clear();
         next_memory_ = 0;
         woken_ = false;
-        for (const std::uint64_t pair : scene_.pairs) {
-            add_contacts(static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair));
+        if (team_ == nullptr || !find_by_team()) {
+            for (const std::uint64_t pair : scene_.pairs) {
+                for_each_found(pair, [this](const FoundContact& found) { add_contact(found); });
+            }
         }
         return !woken_;
     }
@@ -250,7 +254,45 @@ private:
         return (p.category & q.mask) != 0 && (q.category & p.mask) != 0;
     }
 
-    void add_contacts(std::uint32_t a, std::uint32_t other) {
+    // What is found does not depend on what is added, so that it may be found in any order. False: there is
+    // more than there is room for.
+    bool find_by_team() {
+        constexpr std::uint32_t pairs_a_block = 64;
+        static_cast<void>(scene_.found.resize(contact_capacity(scene_.bodies.size()))); // within its room
+        std::atomic<std::uint32_t> count{0};
+        run_blocks(team_, static_cast<std::uint32_t>(scene_.pairs.size()), pairs_a_block,
+                   [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                       for (std::uint32_t i = first; i < end; ++i) {
+                           for_each_found(scene_.pairs[i], [&](const FoundContact& found) {
+                               const std::uint32_t at = count.fetch_add(1, std::memory_order_relaxed);
+                               if (at < scene_.found.size()) {
+                                   scene_.found[at] = found;
+                               }
+                           });
+                       }
+                   });
+        const std::uint32_t found_count = count.load(std::memory_order_relaxed);
+        if (found_count > scene_.found.size()) {
+            return false;
+        }
+        scene_.found_order.clear();
+        for (std::uint32_t i = 0; i < found_count; ++i) {
+            scene_.found_order.push_reserved(i);
+        }
+        std::sort(
+            scene_.found_order.begin(), scene_.found_order.end(),
+            [this](std::uint32_t i, std::uint32_t j) { return scene_.found[i].key < scene_.found[j].key; });
+        for (const std::uint32_t i : scene_.found_order) {
+            add_contact(scene_.found[i]);
+        }
+        return true;
+    }
+
+    // Calls use(found) for each pair of their shapes that may touch in this tick.
+    template <typename Use>
+    void for_each_found(std::uint64_t pair, const Use& use) const {
+        const auto a = static_cast<std::uint32_t>(pair >> 32);
+        const auto other = static_cast<std::uint32_t>(pair);
         const Body& body_a = scene_.bodies[a];
         const Body& body_b = other_body(scene_, other);
         const BodyDescription& description_a = scene_.descriptions[a];
@@ -267,8 +309,13 @@ private:
                 if (!with_collider) {
                     piece_b.centre = piece_b.centre + between;
                 }
-                if (!apart(piece(a, i), piece_b, motion + near_distance)) {
-                    add_contact({a, other, i * LKS_MAX_BODY_SHAPES + j}, piece(a, i), piece_b, motion);
+                if (apart(piece(a, i), piece_b, motion + near_distance)) {
+                    continue;
+                }
+                FoundContact found{};
+                found.key = {a, other, i * LKS_MAX_BODY_SHAPES + j};
+                if (touches(piece(a, i), piece_b, motion, found)) {
+                    use(found);
                 }
             }
         }
@@ -298,22 +345,25 @@ private:
         return {collider.static_friction, collider.dynamic_friction, 0};
     }
 
-    void add_contact(const ContactKey& key, const Piece& a, const Piece& b, std::int64_t motion) {
+    bool touches(const Piece& a, const Piece& b, std::int64_t motion, FoundContact& found) const {
+        // One look a tick is enough where neither passes the other's middle in it.
+        found.fast = motion > fixed::saturating_add(thickness(a), thickness(b));
+        found.radius_a = a.radius;
+        found.radius_b = b.radius;
+        collide(a, b, motion + near_distance, found.manifold);
+        // Boxes beside each other show no points, and may yet meet at their edges.
+        const bool unclear = found.fast && found.manifold.count == 0;
+        drop_what_stays_apart(found.manifold, found.key, motion);
+        return found.manifold.count != 0 || unclear;
+    }
+
+    void add_contact(const FoundContact& found) {
+        const ContactKey& key = found.key;
         while (next_memory_ < scene_.memories.size() && scene_.memories[next_memory_].key < key) {
             ++next_memory_;
         }
         const bool known = next_memory_ < scene_.memories.size() && scene_.memories[next_memory_].key == key;
-        // One look a tick is enough where neither passes the other's middle in it.
-        const bool fast = motion > fixed::saturating_add(thickness(a), thickness(b));
-        Manifold manifold;
-        collide(a, b, motion + near_distance, manifold);
-        // Boxes beside each other show no points, and may yet meet at their edges.
-        const bool unclear = fast && manifold.count == 0;
-        drop_what_stays_apart(manifold, key, motion);
-        if (manifold.count == 0 && !unclear) {
-            return;
-        }
-        if (disturb_sleep(manifold, key)) {
+        if (disturb_sleep(found.manifold, key)) {
             return;
         }
         if (scene_.contacts.size() >= contact_capacity(scene_.bodies.size())) {
@@ -326,14 +376,14 @@ private:
         contact.key = key;
         contact.shares =
             pair_shares(scene_.bodies[key.body_a].effective_inverse_mass(), body_b.effective_inverse_mass());
-        contact.radius_a = a.radius;
-        contact.radius_b = b.radius;
+        contact.radius_a = found.radius_a;
+        contact.radius_b = found.radius_b;
         const Surface& own = scene_.descriptions[key.body_a].surface;
         const Surface other = surface_of(key.other);
         contact.static_friction = combined_friction(own.static_friction, other.static_friction);
         contact.dynamic_friction = combined_friction(own.dynamic_friction, other.dynamic_friction);
         contact.restitution = std::max(own.restitution, other.restitution);
-        contact.fast = fast;
+        contact.fast = found.fast;
         if (known) {
             const ContactMemory& memory = scene_.memories[next_memory_];
             contact.count = memory.count;
@@ -341,7 +391,7 @@ private:
                 contact.points[i].push = memory.pushes[i];
             }
         }
-        take_manifold(contact, manifold, scene_.bodies[key.body_a], body_b);
+        take_manifold(contact, found.manifold, scene_.bodies[key.body_a], body_b);
     }
 
     // Wakes a sleeping body that this one is about to touch. True: the contact is of no use (yet). What lies
@@ -390,6 +440,7 @@ private:
 
     lks_world& world_;
     RigidScene& scene_;
+    Team* team_;
     std::size_t next_memory_ = 0;
     bool woken_ = false;
 };
@@ -426,8 +477,8 @@ void place_collider_bodies(lks_world& world) {
     }
 }
 
-void find_contacts(lks_world& world) {
-    while (!Search(world).run()) {
+void find_contacts(lks_world& world, Team* team) {
+    while (!Search(world, team).run()) {
         wake_islands(world);
     }
 }

@@ -8,8 +8,8 @@ namespace lks {
 // Colliders as bodies of infinite mass, at the beginning of the tick.
 void place_collider_bodies(lks_world& world);
 // Fills the scene's contacts, in ascending order of keys, with what is near enough to touch in this tick.
-// Sleeping bodies that something touches are woken, with their islands.
-void find_contacts(lks_world& world);
+// Sleeping bodies that something touches are woken, with their islands. `team`: null, or who helps.
+void find_contacts(lks_world& world, Team* team);
 // For contacts whose bodies go too fast for one look a tick: the points at the beginning of a substep.
 void find_points_again(const lks_world& world, Contact& contact);
 

@@ -56,6 +56,8 @@ struct RigidScene {
     Overlaps overlaps;
     Array<std::uint32_t> boxed; // by box: body, or collider | other_is_collider
     Array<std::uint64_t> pairs; // body a << 32 | other, ascending
+    Array<FoundContact> found;  // by a team, in any order
+    Array<std::uint32_t> found_order;
     Array<Contact> contacts;
     Array<ContactMemory> next_memories;
     Array<std::uint32_t> islands; // by body: towards the least index in its island

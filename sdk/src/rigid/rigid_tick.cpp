@@ -27,7 +27,7 @@ public:
         prepare();
         scene_.contacts.clear();
         if (moves) {
-            find_contacts(world_);
+            find_contacts(world_, team_);
         }
         find_articulations(scene_);
         find_figures(scene_);
