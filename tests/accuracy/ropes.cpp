@@ -9,6 +9,7 @@
 
 #include "reference/comparison.h"
 #include "support/builders.h"
+#include "support/ropes.h"
 
 using namespace support;
 using reference::Deviation;
@@ -24,16 +25,6 @@ Chain long_rope(double ratio, std::uint32_t solver) {
     chain.end_mass = 0.01 * ratio;
     chain.solver = solver;
     return chain;
-}
-
-double worst_stretch(const World& world, lks_object_id object, const Chain& chain) {
-    const std::vector<Vector> positions = world.positions_from(object, {});
-    const double rest = chain.length / chain.segments;
-    double worst = 0;
-    for (std::size_t i = 1; i < positions.size(); ++i) {
-        worst = std::max(worst, std::abs((positions[i] - positions[i - 1]).length() / rest - 1));
-    }
-    return worst;
 }
 
 // At the end of any tick of three seconds, in which it swings down and up and down.

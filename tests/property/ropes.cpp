@@ -9,6 +9,7 @@
 
 #include "support/bodies.h"
 #include "support/builders.h"
+#include "support/ropes.h"
 
 using namespace support;
 
@@ -35,16 +36,6 @@ double energy(const World& world, lks_object_id object, const std::vector<double
         sum += masses[i] * (v.dot(v) / 2 + g * positions[i].y);
     }
     return sum;
-}
-
-double worst_stretch(const World& world, lks_object_id object, const Chain& chain) {
-    const std::vector<Vector> positions = world.positions_from(object, {});
-    const double rest = chain.length / chain.segments;
-    double worst = 0;
-    for (std::size_t i = 1; i < positions.size(); ++i) {
-        worst = std::max(worst, std::abs((positions[i] - positions[i - 1]).length() / rest - 1));
-    }
-    return worst;
 }
 
 bool within(const World& world, lks_object_id object, double limit) {
@@ -286,15 +277,7 @@ TEST_CASE("a rope of which all particles were brought to one point opens again")
     const Asset asset = chain.build();
     World world(world_def(60, 10));
     const lks_object_id object = world.add(asset, lks_transform_identity());
-    for (std::uint32_t i = 0; i <= 12; ++i) {
-        world.pin(object, i);
-        world.set_target(object, i, fixed(0.5, 0.25, 0));
-    }
-    world.step();
-    for (std::uint32_t i = 1; i <= 12; ++i) {
-        REQUIRE(lks_object_unpin(world, object, i) == LKS_OK);
-        REQUIRE(lks_object_set_velocity(world, object, i, {}) == LKS_OK);
-    }
+    let_go_from(world, object, chain, [](std::uint32_t) { return fixed(0.5, 0.25, 0); });
     // Nothing tells the particles apart: they fall as one, and only the first segment has a length.
     world.step(30);
     CHECK(within(world, object, 3));
@@ -314,15 +297,9 @@ TEST_CASE("a crumpled rope falls down straight") {
     const lks_object_id object = world.add(asset, lks_transform_identity());
     Random random(11);
     const auto somewhere = [&] { return random.between(-LKS_FIXED_ONE / 50, LKS_FIXED_ONE / 50); };
-    for (std::uint32_t i = 0; i <= 80; ++i) {
-        world.pin(object, i);
-        world.set_target(object, i, {somewhere(), somewhere(), somewhere()});
-    }
-    world.step();
-    for (std::uint32_t i = 1; i <= 80; ++i) {
-        REQUIRE(lks_object_unpin(world, object, i) == LKS_OK);
-        REQUIRE(lks_object_set_velocity(world, object, i, {}) == LKS_OK);
-    }
+    let_go_from(world, object, chain, [&](std::uint32_t) {
+        return lks_vec3{somewhere(), somewhere(), somewhere()};
+    });
     world.step(300);
     CHECK(within(world, object, 2.5));
     CHECK(worst_stretch(world, object, chain) < 2e-2);
