@@ -1,11 +1,17 @@
 #include "experiment.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lks_accuracy {
 
 std::string label_of(const reference::Schedule& schedule) {
     return std::to_string(schedule.substeps) + " × " + std::to_string(schedule.iterations);
+}
+
+bool has_solver(const Experiment& experiment, const std::string& solver) {
+    return std::any_of(experiment.rows.begin(), experiment.rows.end(),
+                       [&](const Row& row) { return row.solver == solver; });
 }
 
 const Row* best_within(const Experiment& experiment, const std::string& solver, int passes) {

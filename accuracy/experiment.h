@@ -14,6 +14,9 @@ struct Quantity {
     std::string meaning;
 };
 
+// Behind the name of a solver whose rope is solved at once.
+inline constexpr const char* at_once_suffix = ", at once";
+
 struct Row {
     std::string solver;
     reference::Schedule schedule{};
@@ -39,6 +42,7 @@ struct Experiment {
 
 std::string label_of(const reference::Schedule& schedule); // "20 × 1"
 
+bool has_solver(const Experiment& experiment, const std::string& solver);
 // The row of this solver that has the least main error among those of at most so many passes; null: none.
 const Row* best_within(const Experiment& experiment, const std::string& solver, int passes);
 

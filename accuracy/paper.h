@@ -41,9 +41,9 @@ struct ChainRun {
     double worst_error = 0;
     double worst_of_peak = 0; // over all frames, relative to Newton's greatest force
 };
-// Newton first, then each solver at each number of iterations.
+// Newton first, then each engine at each number of iterations.
 std::vector<ChainRun> run_chain(const std::vector<reference::Engine>& engines, double rate_hz,
-                                const std::vector<int>& iterations);
+                                const std::vector<int>& iterations, lks_rope_solver solver = LKS_ROPE_SWEPT);
 
 // A beam of St. Venant-Kirchhoff triangles held at one end, E = 1e5, ν = 0.3, 50 frames of 8 ms.
 struct BeamRun {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiment.h"
 #include "paper.h"
 
 namespace lks_accuracy {
@@ -11,8 +12,9 @@ namespace {
 
 constexpr int frames = 100;
 
-std::vector<double> forces_of(Engine engine, double rate_hz, int iterations) {
+std::vector<double> forces_of(Engine engine, double rate_hz, int iterations, lks_rope_solver solver) {
     reference::ParticleScene scene = reference::make_rope(19, 19, 1, {1e-8, 0, 1, 0}, {1, 0, 0});
+    scene.solver = solver;
     scene.record_forces = true;
     scene.tick_rate_hz = rate_hz;
     const reference::Model model = model_of(scene);
@@ -31,13 +33,15 @@ std::vector<double> forces_of(Engine engine, double rate_hz, int iterations) {
 } // namespace
 
 std::vector<ChainRun> run_chain(const std::vector<Engine>& engines, double rate_hz,
-                                const std::vector<int>& iterations) {
-    std::vector<ChainRun> runs{{name_of(Engine::newton), rate_hz, 0, forces_of(Engine::newton, rate_hz, 1)}};
+                                const std::vector<int>& iterations, lks_rope_solver solver) {
+    std::vector<ChainRun> runs{
+        {name_of(Engine::newton), rate_hz, 0, forces_of(Engine::newton, rate_hz, 1, solver)}};
+    const std::string suffix = solver == LKS_ROPE_DIRECT ? at_once_suffix : "";
     const std::vector<double> exact = runs.front().forces;
     const double peak = *std::max_element(exact.begin(), exact.end());
     for (const Engine engine : engines) {
         for (const int count : iterations) {
-            ChainRun run{name_of(engine), rate_hz, count, forces_of(engine, rate_hz, count)};
+            ChainRun run{name_of(engine) + suffix, rate_hz, count, forces_of(engine, rate_hz, count, solver)};
             run.first_error = std::abs(run.forces[0] / exact[0] - 1);
             for (std::size_t frame = 0; frame < exact.size(); ++frame) {
                 const double error = std::abs(run.forces[frame] - exact[frame]);

@@ -14,7 +14,6 @@ namespace {
 using reference::Engine;
 using Positions = std::vector<support::Vector>;
 
-constexpr int force_reference_substeps = 20;
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 // What is kept of a run.
@@ -173,8 +172,8 @@ struct Measurer {
         const reference::Schedule schedule{measured.reference_substeps, 1};
         converged = trace(*simulate(Engine::double_precision, measured.scene, schedule), measured, stiff);
         if (measured.force_at_pin) {
-            // Of the exact implicit step: with one iteration a substep, forces jump from one to the next.
-            converged.forces = forces_of(Engine::newton, measured, {force_reference_substeps, 1});
+            // Of ropes solved at once: swept, forces jump from one substep to the next.
+            converged.forces = forces_of(Engine::double_precision, at_once(measured), schedule);
         }
         start_energy =
             energy_of(measured.scene, measured.scene.start, Positions(measured.scene.start.size()));
@@ -265,24 +264,31 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
         const reference::Schedule& schedule = schedules[i];
         progress(measured.name + ": " + label_of(schedule) + " (" + std::to_string(i + 1) + " of " +
                  std::to_string(schedules.size()) + ")");
-        const auto run = [&](Engine engine) {
-            Trace found = trace(*simulate(engine, measured.scene, schedule), measured, measurer.stiff);
-            if (measured.force_at_pin && engine != Engine::pbd) {
-                found.forces = forces_of(engine, measured, schedule);
+        const auto run = [&](Engine engine, const MeasuredScene& scene) {
+            Trace found = trace(*simulate(engine, scene.scene, schedule), scene, measurer.stiff);
+            if (scene.force_at_pin && engine != Engine::pbd) {
+                found.forces = forces_of(engine, scene, schedule);
             }
             return found;
         };
-        const Trace twin = run(Engine::double_precision);
-        for (const Engine engine : {Engine::fixed_point, Engine::single_precision}) {
-            experiment.rows.push_back(measurer.row_of(name_of(engine), schedule, run(engine), &twin));
+        const auto add_ours = [&](const MeasuredScene& scene, const std::string& suffix) {
+            const Trace twin = run(Engine::double_precision, scene);
+            for (const Engine engine : {Engine::fixed_point, Engine::single_precision}) {
+                experiment.rows.push_back(
+                    measurer.row_of(name_of(engine) + suffix, schedule, run(engine, scene), &twin));
+            }
+            experiment.rows.push_back(
+                measurer.row_of(name_of(Engine::double_precision) + suffix, schedule, twin, nullptr));
+        };
+        add_ours(measured, "");
+        if (measured.is_rope()) {
+            add_ours(at_once(measured), at_once_suffix);
         }
-        experiment.rows.push_back(
-            measurer.row_of(name_of(Engine::double_precision), schedule, twin, nullptr));
         if (measured.scene.ball.radius == 0) {
             // Where nothing is soft, PBD of stiffness 1 is XPBD.
             if (measured.has_compliance) {
                 experiment.rows.push_back(
-                    measurer.row_of(name_of(Engine::pbd), schedule, run(Engine::pbd), nullptr));
+                    measurer.row_of(name_of(Engine::pbd), schedule, run(Engine::pbd, measured), nullptr));
             }
             if (lks_bench::has_bullet()) {
                 BulletSimulation bullet(measured.scene, measurer.model, schedule);

@@ -18,6 +18,15 @@ std::vector<std::string> solvers_of(const Experiment& experiment) {
     return solvers;
 }
 
+// Of ours: swept, and where there is such a thing, solved at once.
+std::vector<std::string> suffixes_of(const Experiment& experiment) {
+    std::vector<std::string> suffixes{""};
+    if (has_solver(experiment, std::string("fixed-point") + at_once_suffix)) {
+        suffixes.push_back(at_once_suffix);
+    }
+    return suffixes;
+}
+
 // Points of one solver and quantity, in the order of the grid.
 template <typename Wanted>
 std::string lines_of(const Experiment& experiment, const std::string& solver, std::size_t quantity,
@@ -59,7 +68,7 @@ std::string whole_table(const Experiment& experiment, std::size_t quantity) {
     return text;
 }
 
-std::string budget_table(const Experiment& experiment) {
+std::string budget_table(const Experiment& experiment, const std::string& solver) {
     std::vector<std::string> head{"passes a tick, at most", "best setting",
                                   "ns a " + experiment.unit_of_work + " and tick"};
     for (const Quantity& quantity : experiment.quantities) {
@@ -67,7 +76,7 @@ std::string budget_table(const Experiment& experiment) {
     }
     std::string text = table_head(head);
     for (const int budget : budgets) {
-        const Row* best = best_within(experiment, "fixed-point", budget);
+        const Row* best = best_within(experiment, solver, budget);
         if (best == nullptr || (budget > budgets[0] && best->passes() <= budget / 2)) {
             continue; // nothing better than with less
         }
@@ -81,20 +90,20 @@ std::string budget_table(const Experiment& experiment) {
     return text;
 }
 
-// Where fixed-point's own rounding stands beside what the method itself is off.
-std::string rounding_table(const Experiment& experiment) {
+// Where fixed-point's own rounding stands beside what the method itself is off. `suffix`: of the solvers.
+std::string rounding_table(const Experiment& experiment, const std::string& suffix) {
     std::string text = table_head({"substeps × iterations", "method's own error, m",
                                    "fixed-point's rounding, m", "share", "float32's rounding, m"});
     for (const Row& row : experiment.rows) {
-        if (row.solver != "fixed-point" || row.schedule.iterations != 1) {
+        if (row.solver != "fixed-point" + suffix || row.schedule.iterations != 1) {
             continue;
         }
         double own = 0;
         double single = 0;
         for (const Row& other : experiment.rows) {
             if (label_of(other.schedule) == label_of(row.schedule)) {
-                own = other.solver == "double" ? other.errors[experiment.discretisation] : own;
-                single = other.solver == "float32" ? other.errors[experiment.rounding] : single;
+                own = other.solver == "double" + suffix ? other.errors[experiment.discretisation] : own;
+                single = other.solver == "float32" + suffix ? other.errors[experiment.rounding] : single;
             }
         }
         const double rounding = row.errors[experiment.rounding];
@@ -114,7 +123,7 @@ Plot draw_experiment(const Experiment& experiment) {
     script.command("set title '" + experiment.title + ": " + main.name + "'\nset logscale xy\n" +
                    "set xlabel 'nanoseconds a " + experiment.unit_of_work + " and tick'\nset ylabel '" +
                    main.unit +
-                   "'\nset format y '10^{%T}'\nset format x '%g'\nset key outside bottom center maxrows 5");
+                   "'\nset format y '10^{%T}'\nset format x '%g'\nset key outside bottom center maxrows 6");
     std::vector<std::string> curves;
     for (const std::string& solver : solvers_of(experiment)) {
         const auto add = [&](const char* style, const std::string& title, const auto& wanted) {
@@ -124,7 +133,7 @@ Plot draw_experiment(const Experiment& experiment) {
                                  (title.empty() ? " notitle" : " title '" + title + "'"));
             }
         };
-        if (solver == "double") {
+        if (solver.rfind("double", 0) == 0) {
             continue; // lies on fixed-point's errors, at a cost that says nothing
         }
         const bool fixed_iterations = experiment.name == "ragdoll_stairs" && solver == "Bullet";
@@ -134,7 +143,7 @@ Plot draw_experiment(const Experiment& experiment) {
             add(" with linespoints lw 2 dt 2 pt 6 ps 0.7", solver + ", iterations",
                 [](const reference::Schedule& s) { return s.substeps == 1; });
         }
-        if (solver == "fixed-point") {
+        if (solver.rfind("fixed-point", 0) == 0) {
             add(" with points pt 2 ps 0.7", solver + ", both",
                 [](const reference::Schedule& s) { return s.substeps > 1 && s.iterations > 1; });
         }
@@ -152,14 +161,18 @@ Plot draw_experiment(const Experiment& experiment) {
         return script.data(lines_of(experiment, solver, quantity, false, one_iteration)) +
                " with linespoints lw 3 " + looks;
     };
-    script.command("plot " +
-                   lks_bench::comma_separated(
-                       {curve("double", experiment.discretisation,
-                              "pt 7 lc rgb '#969696' title 'off the converged solution (double)'"),
-                        curve("float32", experiment.rounding,
-                              "pt 7" + colour_of("float32") + " title 'rounding of float32'"),
-                        curve("fixed-point", experiment.rounding,
-                              "pt 7" + colour_of("fixed-point") + " title 'rounding of fixed-point'")}));
+    std::vector<std::string> kinds;
+    for (const std::string& suffix : suffixes_of(experiment)) {
+        const auto add = [&](const std::string& solver, std::size_t quantity, const std::string& title) {
+            std::string looks = "pt 7" + colour_of(solver + suffix);
+            looks.append(" title '").append(title).append(suffix).append("'");
+            kinds.push_back(curve(solver + suffix, quantity, looks));
+        };
+        add("double", experiment.discretisation, "off the converged solution (double)");
+        add("float32", experiment.rounding, "rounding of float32");
+        add("fixed-point", experiment.rounding, "rounding of fixed-point");
+    }
+    script.command("plot " + lks_bench::comma_separated(kinds));
     script.command("unset multiplot");
     return plot;
 }
@@ -172,11 +185,14 @@ Section report_experiment(const Experiment& experiment) {
     for (const Quantity& quantity : experiment.quantities) {
         section.text += "* **" + quantity.name + "** (" + quantity.unit + "): " + quantity.meaning + "\n";
     }
-    section.text += "\nFixed-point, the best setting by " +
-                    experiment.quantities[experiment.main_quantity].name + " at each budget:\n\n" +
-                    budget_table(experiment);
-    if (experiment.has_rounding) {
-        section.text += "\nWhere particles are, one iteration a substep:\n\n" + rounding_table(experiment);
+    for (const std::string& suffix : suffixes_of(experiment)) {
+        section.text += "\nFixed-point" + suffix + ", the best setting by " +
+                        experiment.quantities[experiment.main_quantity].name + " at each budget:\n\n" +
+                        budget_table(experiment, "fixed-point" + suffix);
+        if (experiment.has_rounding) {
+            section.text += "\nWhere particles are" + suffix + ", one iteration a substep:\n\n" +
+                            rounding_table(experiment, suffix);
+        }
     }
     for (std::size_t quantity = 0; quantity < experiment.quantities.size(); ++quantity) {
         if (experiment.has_rounding && quantity == experiment.rounding) {

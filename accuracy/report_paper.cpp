@@ -92,7 +92,9 @@ Section report_chain(const std::vector<ChainRun>& runs) {
                 {"paper_chain", "worst force error of the peak", variant, 100 * run.worst_of_peak, "%"});
         }
         const bool ours = run.solver == "fixed-point";
-        if (run.rate_hz == 125 && (ours || run.iterations == 0 || run.iterations == 1000)) {
+        const bool direct = run.solver == std::string("fixed-point") + at_once_suffix;
+        if (run.rate_hz == 125 &&
+            (ours || run.iterations == 0 || run.iterations == 1000 || (direct && run.iterations == 1))) {
             curves.push_back(plot.script.data(by_frame(run.forces, 1)) +
                              (run.iterations == 0 ? std::string(" with lines lw 6 lc rgb '#d9d9d9'")
                               : ours              ? " with lines lw 2 dt " +

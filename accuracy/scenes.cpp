@@ -1,5 +1,7 @@
 #include "scenes.h"
 
+#include "experiment.h"
+
 namespace lks_accuracy {
 namespace {
 
@@ -25,6 +27,7 @@ MeasuredScene rope_swing() {
     measured.force_at_pin = true;
     measured.reference_substeps = 2560;
     measured.recommended = {10, 20, 40};
+    measured.recommended_at_once = {5, 10, 20};
     return measured;
 }
 
@@ -39,7 +42,15 @@ MeasuredScene rope_heavy_end() {
     measured.force_at_pin = true;
     measured.reference_substeps = 2560;
     measured.recommended = {20, 40, 80};
+    measured.recommended_at_once = {5, 10, 20};
     return measured;
+}
+
+MeasuredScene at_once(MeasuredScene rope) {
+    rope.name += at_once_suffix;
+    rope.scene.solver = LKS_ROPE_DIRECT;
+    rope.recommended = rope.recommended_at_once;
+    return rope;
 }
 
 MeasuredScene cloth_hang() {

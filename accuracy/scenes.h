@@ -13,15 +13,21 @@ struct MeasuredScene {
     std::string title;
     std::string what;
     reference::ParticleScene scene;
-    int ticks = 60;                 // stretch and energy are looked at until then
-    int deviation_tick = 60;        // where particles are compared, before chaos has its way
-    bool keeps_energy = false;      // nothing takes it out: no air, nothing soft
-    bool force_at_pin = false;      // of the first edge at the first pin
-    std::size_t lowest_vertex = 0;  // whose height is the sag; 0: not asked for
-    bool has_compliance = false;    // PBD can't have it
-    int reference_substeps = 640;   // in double precision, one iteration each
-    std::vector<int> recommended{}; // substeps of one iteration that docs/accuracy.md names
+    int ticks = 60;                         // stretch and energy are looked at until then
+    int deviation_tick = 60;                // where particles are compared, before chaos has its way
+    bool keeps_energy = false;              // nothing takes it out: no air, nothing soft
+    bool force_at_pin = false;              // of the first edge at the first pin
+    std::size_t lowest_vertex = 0;          // whose height is the sag; 0: not asked for
+    bool has_compliance = false;            // PBD can't have it
+    int reference_substeps = 640;           // in double precision, one iteration each
+    std::vector<int> recommended{};         // substeps of one iteration that docs/accuracy.md names
+    std::vector<int> recommended_at_once{}; // the same of a rope that is solved at once
+
+    bool is_rope() const { return !scene.rest.empty(); }
 };
+
+// The same rope, solved at once.
+MeasuredScene at_once(MeasuredScene rope);
 
 MeasuredScene rope_swing();
 MeasuredScene rope_heavy_end();

@@ -143,7 +143,7 @@ SceneAsset::SceneAsset(const ParticleScene& scene) {
             points.insert(points.end(), {p.x, p.y, p.z});
         }
         lks_rope_def def = lks_default_rope_def();
-        def.solver = LKS_ROPE_SWEPT; // as the reference solvers are
+        def.solver = scene.solver;
         def.segments = 0;
         def.length = 0;
         def.point_count = static_cast<std::uint32_t>(scene.rest.size());

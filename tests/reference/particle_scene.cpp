@@ -140,7 +140,11 @@ Model model_of(const ParticleScene& scene) {
     for (const support::Vector& p : scene.start) {
         start.push_back({representable(p.x), representable(p.y), representable(p.z)});
     }
-    return {start, scene.masses, edges_of(asset.get(), scene.materials), {}, {}, scene.pins, scene.ball};
+    Model model{start, scene.masses, edges_of(asset.get(), scene.materials), {}, {}, scene.pins, scene.ball};
+    if (scene.solver == LKS_ROPE_DIRECT) {
+        model.chain = segments_of(model.edges);
+    }
+    return model;
 }
 
 std::unique_ptr<Simulation> simulate(Engine engine, const ParticleScene& scene, const Schedule& schedule,

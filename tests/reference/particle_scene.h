@@ -25,6 +25,8 @@ struct ParticleScene {
     double tick_rate_hz = 60;
     support::Vector gravity{0, -9.81, 0};
     double linear_damping = 0;
+    // Of a rope; followed by the SDK and xpbd.h, and automatic by the SDK alone.
+    lks_rope_solver solver = LKS_ROPE_SWEPT;
     bool record_forces = false; // in the SDK
 };
 
