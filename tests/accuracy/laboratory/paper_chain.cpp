@@ -25,6 +25,22 @@ TEST_CASE("the chain's force is within 6 %, 2 % and 0.5 % of Newton at 50, 100 a
     CHECK(runs[0].forces.back() > 100);
 }
 
+TEST_CASE("solved at once, a single iteration a frame is within 0.3 % of Newton, and more change nothing") {
+    const std::vector<ChainRun> runs = run_chain({Engine::fixed_point}, 125, {1, 5}, LKS_ROPE_DIRECT);
+    REQUIRE(runs.size() == 3);
+    for (const ChainRun* run : {&runs[1], &runs[2]}) {
+        std::printf(
+            "chain, at once, %d iterations: force off by %.2f %% at most, %.2f %% in the first frame\n",
+            run->iterations, 100 * run->worst_error, 100 * run->first_error);
+        INFO(run->iterations << " iterations");
+        CHECK(run->worst_error <= 0.003);
+        CHECK(run->worst_of_peak <= 0.001);
+        // Where 50 sweeps carry two fifths of the load.
+        CHECK(run->first_error <= 0.005);
+    }
+    CHECK(runs[1].worst_error == doctest::Approx(runs[2].worst_error).epsilon(0.05));
+}
+
 TEST_CASE("float32's own rounding spoils the force at 1000 iterations, fixed-point's does not") {
     const std::vector<ChainRun> runs =
         run_chain({Engine::fixed_point, Engine::single_precision}, 125, {1000});

@@ -1,7 +1,10 @@
 // What docs/accuracy.md promises of the settings that it recommends, and why it recommends substeps.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
+#include <string>
 
 #include "accuracy/particles.h"
 #include "accuracy/stairs.h"
@@ -16,6 +19,21 @@ struct Promise {
     int substeps;
     double worst, mean; // stretch, %
 };
+
+const Row& row_of(const Experiment& experiment, const std::string& solver, int substeps) {
+    const auto found = std::find_if(experiment.rows.begin(), experiment.rows.end(), [&](const Row& row) {
+        return row.solver == solver && row.schedule.substeps == substeps;
+    });
+    REQUIRE(found != experiment.rows.end());
+    return *found;
+}
+
+double error_of(const Experiment& experiment, const Row& row, const std::string& quantity) {
+    const auto found = std::find_if(experiment.quantities.begin(), experiment.quantities.end(),
+                                    [&](const Quantity& candidate) { return candidate.name == quantity; });
+    REQUIRE(found != experiment.quantities.end());
+    return row.errors[static_cast<std::size_t>(found - experiment.quantities.begin())];
+}
 
 } // namespace
 
@@ -35,6 +53,65 @@ TEST_CASE("ropes and cloths stretch as little as the table of substeps says") {
         CHECK(100 * stretch.worst <= promise.worst);
         CHECK(100 * stretch.mean <= promise.mean);
         CHECK(stretch.mean > 0);
+    }
+}
+
+TEST_CASE("ropes that are solved at once are as near as the table of substeps says") {
+    const char* const quantities[] = {"stretch, worst", "stretch, mean", "deviation", "energy drift",
+                                      "support force, a tick"};
+    struct AtOnce {
+        int substeps;
+        double most[5]; // %, %, m, %, %
+    };
+    struct Rope {
+        MeasuredScene scene;
+        AtOnce settings[3];
+    };
+    const Rope ropes[] = {
+        {rope_swing(),
+         {{5, {0.06, 1e-4, 0.13, 7, 6}}, {10, {0.01, 2e-5, 0.085, 5, 4}}, {20, {1e-3, 2e-6, 0.055, 3, 2.7}}}},
+        {rope_heavy_end(),
+         {{5, {2e-4, 3e-6, 0.016, 1, 1.7}},
+          {10, {1e-5, 3e-7, 0.008, 0.6, 1.1}},
+          {20, {1e-6, 1e-7, 0.0045, 0.3, 0.65}}}}};
+    for (const Rope& rope : ropes) {
+        MeasuredScene scene = rope.scene;
+        scene.reference_substeps = 640; // swept: of places, it knows nothing of the direct solve
+        const Experiment found = measure_particles(scene, {{5, 10, 20}, {1}, 20}, [](const std::string&) {});
+        for (const AtOnce& setting : rope.settings) {
+            const Row& direct = row_of(found, "fixed-point, at once", setting.substeps);
+            const Row& swept = row_of(found, "fixed-point", setting.substeps);
+            std::printf("%-14s at once, %2d substeps:", scene.name.c_str(), setting.substeps);
+            for (std::size_t i = 0; i < std::size(quantities); ++i) {
+                const double error = error_of(found, direct, quantities[i]);
+                std::printf("  %s %.1e", quantities[i], error);
+                INFO(scene.name << ", " << setting.substeps << " substeps, " << std::string(quantities[i]));
+                CHECK(error > 0);
+                CHECK(error <= setting.most[i]);
+                CHECK(error < error_of(found, swept, quantities[i]));
+            }
+            std::printf("\n");
+        }
+    }
+}
+
+TEST_CASE("automatic solves both measured ropes at once") {
+    for (const MeasuredScene& rope : {rope_swing(), rope_heavy_end()}) {
+        reference::ParticleScene automatic = rope.scene;
+        automatic.solver = LKS_ROPE_AUTOMATIC;
+        const auto chosen = simulate(Engine::fixed_point, automatic, {4, 1});
+        const auto direct = simulate(Engine::fixed_point, at_once(rope).scene, {4, 1});
+        const auto swept = simulate(Engine::fixed_point, rope.scene, {4, 1});
+        for (int tick = 0; tick < 10; ++tick) {
+            chosen->tick();
+            direct->tick();
+            swept->tick();
+        }
+        const auto end_of = [](const reference::Simulation& simulation) {
+            return simulation.positions().back();
+        };
+        CHECK((end_of(*chosen) - end_of(*direct)).length() == 0);
+        CHECK((end_of(*chosen) - end_of(*swept)).length() > 0.01);
     }
 }
 
