@@ -14,6 +14,8 @@ using fixed::Vec3;
 
 constexpr int fraction_bits = 32;
 constexpr std::int64_t one = std::int64_t{1} << fraction_bits;
+// (hω)² of a body's swing: a ten-thousandth of its inverse inertia is left, which has 30 bits.
+constexpr std::int64_t greatest_load = std::int64_t{1} << (world_fraction_bits + 14);
 
 // What an image made up may be anything: sums wrap.
 constexpr auto plus = fixed::wrapping_add;
@@ -317,12 +319,12 @@ private:
         const std::int64_t along = fixed::dot(d, multiply(m, Vec3{d.x, d.y, d.z})); // 30 fraction bits
         const std::int64_t across = std::int64_t{m.xx} + m.yy + m.zz - along;
         const std::int64_t pull = in_units(
-            std::min(fixed::scale_component(on_a ? shares.a : shares.b, joint.tension), greatest_step));
+            std::min(fixed::scale_component(on_a ? shares.a : shares.b, joint.tension), greatest_push));
         const std::int64_t load =
             fixed::multiply_shift(fixed::multiply_shift(pull, in_units(lever.length), world_fraction_bits),
                                   across, 30 - body.inverse_shift);
         std::int64_t& sum = scene_.articulated[index].load;
-        sum = std::min(fixed::saturating_add(sum, load), greatest_push);
+        sum = std::min(fixed::saturating_add(sum, load), greatest_load);
     }
 
     Body& body_a(const Joint& joint) { return scene_.bodies[joint.description.body_a]; }
