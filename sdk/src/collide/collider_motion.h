@@ -54,6 +54,8 @@ struct ContactFrame {
     fixed::Vec3 end_centre;
     std::uint32_t static_friction;
     std::uint32_t dynamic_friction;
+    // How much of an overlap from before the substep is undone in it.
+    std::int64_t greatest_recovery;
     bool moving;
     bool rotating;
     // False: no particle within the bounds can touch it in this substep.

@@ -16,7 +16,7 @@ constexpr std::int64_t followed_radius = coordinate_one * 63;
 // The plane that a particle may not get behind, in the shape's frame at the end of the substep.
 struct Contact {
     fixed::Direction normal;
-    std::int64_t depth;     // of the particle's present position behind it, > 0
+    std::int64_t depth;     // of the particle's present position behind it, to be undone, > 0
     std::int64_t old_depth; // the part of depth that was there when the substep began
 };
 
@@ -79,6 +79,13 @@ fixed::Vec3 plane_local(const fixed::Matrix3& rotation, const fixed::Vec3& posit
     return {saturating_double(local.x), saturating_double(local.y), saturating_double(local.z)};
 }
 
+// What is new is undone at once; a collider that appears in a heap is not to shoot it away.
+void take_depth(const ContactFrame& frame, std::int64_t depth, std::int64_t start_depth, Contact& contact) {
+    const std::int64_t old_depth = std::min(depth, std::max<std::int64_t>(start_depth, 0));
+    contact.old_depth = std::min(old_depth, frame.greatest_recovery);
+    contact.depth = depth - (old_depth - contact.old_depth);
+}
+
 template <lks_shape_kind kind>
 bool find_contact(const ContactFrame& frame, const Way& way, Contact& contact) {
     const auto nearest_to = [&frame](const fixed::Vec3& p) {
@@ -89,8 +96,7 @@ bool find_contact(const ContactFrame& frame, const Way& way, Contact& contact) {
         return false;
     }
     contact.normal = found.hit.normal;
-    contact.depth = found.closing - found.hit.distance;
-    contact.old_depth = std::min(contact.depth, std::max<std::int64_t>(-found.start.distance, 0));
+    take_depth(frame, found.closing - found.hit.distance, -found.start.distance, contact);
     return true;
 }
 
@@ -101,9 +107,7 @@ bool find_plane_contact(const ContactFrame& frame, const Way& way, Contact& cont
     }
     const std::int64_t start_height = saturating_subtract(way.start.y, frame.margin);
     contact.normal = {0, direction_one, 0};
-    contact.depth = saturating_subtract(0, height);
-    contact.old_depth =
-        std::min(contact.depth, std::max<std::int64_t>(saturating_subtract(0, start_height), 0));
+    take_depth(frame, saturating_subtract(0, height), saturating_subtract(0, start_height), contact);
     return true;
 }
 

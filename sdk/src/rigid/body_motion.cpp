@@ -95,7 +95,7 @@ Vec3 change_to_middle(const Body& body, const BodyDescription& description, cons
 MotionRate::MotionRate(const StepRate& rate)
     : substeps_per_second(static_cast<std::int64_t>(rate.substeps_per_second)),
       half_turn_factor((std::int64_t{1} << 59) / substeps_per_second), speed_limit(body_speed_limit(rate)),
-      spin_limit(body_spin_limit(rate)) {}
+      spin_limit(body_spin_limit(rate)), greatest_recovery(rate.greatest_recovery) {}
 
 std::int64_t body_speed_limit(const StepRate& rate) {
     const auto n = static_cast<std::int64_t>(rate.substeps_per_second);

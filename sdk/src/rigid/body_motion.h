@@ -18,6 +18,7 @@ struct MotionRate {
     std::int64_t half_turn_factor;    // 2^59 / n: World rad/s to Turn half turns, with 40 bits more
     std::int64_t speed_limit;         // World, m/s an axis
     std::int64_t spin_limit;          // World, rad/s an axis
+    std::int64_t greatest_recovery;   // of particles inside of a body: as StepRate has it
 };
 
 // World: the lower of 1000 m/s and 16 m a substep; the lower of 1000 rad/s and one rad a substep.

@@ -154,6 +154,7 @@ void collide_with_body(Object& object, Body& body, const BodyDescription& descri
         const BodyShapePlace place(body, description.shapes[i]);
         ContactFrame frame = make_contact_frame(place.way(description.surface), object.origin, bounds,
                                                 asset.particle_radius, asset.friction);
+        frame.greatest_recovery = rate.greatest_recovery;
         if (!body.is_dynamic()) {
             Unmoved unmoved(held);
             resolve_contacts(frame, particles, 0, object.count(), kernels, &unmoved);

@@ -8,6 +8,7 @@ namespace lks {
 namespace {
 
 constexpr std::int64_t speed_limit_metres_per_second = 1000;
+constexpr std::int64_t recovery_metres_per_second = 3;
 
 std::uint64_t magnitude(std::int64_t value) {
     return value < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(value)
@@ -44,6 +45,7 @@ StepRate make_step_rate(std::uint32_t ticks_per_second, std::uint32_t substeps, 
     rate.motion_limit =
         std::min(substep_motion_limit,
                  motion_from_velocity(rate, speed_limit_metres_per_second << world_fraction_bits));
+    rate.greatest_recovery = motion_from_velocity(rate, recovery_metres_per_second << world_fraction_bits);
     return rate;
 }
 

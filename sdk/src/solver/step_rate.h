@@ -17,6 +17,8 @@ struct StepRate {
     std::uint64_t substeps_per_second = 0;
     // Coordinate units an axis moves at most in one substep: 1000 m/s or 16 m, whichever is less.
     std::int64_t motion_limit = 0;
+    // How much of an old overlap with a collider is undone in one substep: 3 m/s.
+    std::int64_t greatest_recovery = 0;
 
     fixed::Scaled inverse_h() const { return fixed::Scaled::from_u64(substeps_per_second); }
 };
