@@ -10,7 +10,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "reference/chain.h"
@@ -71,12 +73,20 @@ public:
         inverse_masses_[particle] = 0;
         targets_[particle] = positions_[particle];
     }
+    void unpin(std::size_t particle) {
+        inverse_masses_[particle] = static_cast<Scalar>(1 / masses_[particle]);
+    }
     void set_target(std::size_t particle, const support::Vector& target) {
         targets_[particle] = Vec(target + place_);
     }
     void set_velocity(std::size_t particle, const support::Vector& velocity) {
         velocities_[particle] = Vec(velocity);
     }
+
+    // Called for each free particle at the end of each iteration, with where it is, where the substep began
+    // for it, and how much of the tick is over at the substep's start and at its end.
+    using Contact = std::function<void(Vec& position, Vec& start, Scalar from, Scalar to)>;
+    void set_contact(Contact contact) { contact_ = std::move(contact); }
 
     void tick(int count = 1) {
         for (int i = 0; i < count; ++i) {
@@ -95,6 +105,9 @@ public:
                         solve_chain();
                     }
                     leave_ball();
+                    if (contact_) {
+                        collide(substep);
+                    }
                 }
                 for (std::size_t p = 0; p < positions_.size(); ++p) {
                     velocities_[p] = (positions_[p] - previous_[p]) * (1 / h_);
@@ -173,6 +186,16 @@ private:
                 positions_[p] = start[p] + (targets_[p] - start[p]) * share;
             } else {
                 positions_[p] = positions_[p] + velocities_[p] * (h_ * kept) + gravity;
+            }
+        }
+    }
+
+    void collide(int substep) {
+        const auto substeps = static_cast<Scalar>(settings_.substeps);
+        for (std::size_t p = 0; p < positions_.size(); ++p) {
+            if (inverse_masses_[p] != 0) {
+                contact_(positions_[p], previous_[p], static_cast<Scalar>(substep - 1) / substeps,
+                         static_cast<Scalar>(substep) / substeps);
             }
         }
     }
@@ -275,6 +298,7 @@ private:
     std::vector<Vec> positions_, previous_, velocities_, targets_;
     std::vector<Scalar> multipliers_;
     std::vector<Coefficients> coefficients_;
+    Contact contact_;
 };
 
 } // namespace reference

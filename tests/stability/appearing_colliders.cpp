@@ -1,0 +1,85 @@
+// A collider that is added where things already are: what it overlaps is put out of it, and not shot.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "stability/support/table.h"
+#include "stability/support/trial.h"
+#include "support/bodies.h"
+
+using namespace support;
+using namespace stability;
+
+namespace {
+
+lks_collider_def ball(double radius, const lks_vec3& position) {
+    lks_collider_def def = lks_default_collider_def();
+    def.radius = support::fixed(radius);
+    def.transform.position = position;
+    return def;
+}
+
+} // namespace
+
+TEST_CASE("a ball that appears in a cloth pushes it aside") {
+    // Inextensible, it has nowhere to go but up where it stands on its edge.
+    for (const bool standing : {false, true}) {
+        Net net;
+        net.side = 16;
+        net.width = 1.5;
+        net.particle_mass = 1.0 / 256;
+        net.radius = 0.01;
+        const Asset asset = net.build();
+        Subject subject = subject_of(net, asset);
+        subject.transform = standing ? at(0, 1, 0) : turned(at(0, 1, 0), 3, 1, 2, 70);
+        Trial trial(subject);
+        lks_collider_def ground = lks_default_collider_def();
+        ground.shape = LKS_SHAPE_PLANE;
+        trial.add(ground);
+        trial.run(180);
+        trial.add(ball(0.3, support::fixed(0.1, 0, 0)));
+        trial.begin();
+        const std::string scene =
+            named("ball of 60 cm appears in a cloth that ", standing ? "stands" : "lies", " on the ground");
+        trial.run(12);
+        expect_kinetic_energy_at_most(scene, trial, standing ? 100 : 30);
+        trial.begin();
+        trial.run(180);
+        expect_depth_at_most(scene + ", from 0.2 s on", trial, 1e-5);
+        expect_last_kinetic_energy_at_most(scene, trial, standing ? 60 : 0.1);
+        expect_last_off_at_most(scene, trial, standing ? 5 : 40);
+        expect_nothing_clamped(trial);
+    }
+}
+
+TEST_CASE("a ball that appears in a pile of boxes pushes them aside") {
+    World world(world_def(60, 20));
+    add_ground(world);
+    std::vector<lks_body_id> boxes;
+    for (int i = 0; i < 27; ++i) {
+        lks_body_def def = lks_default_body_def();
+        def.never_sleeps = 1;
+        boxes.push_back(add_body(
+            world, box_shape(0.1, 0.1, 0.1),
+            support::fixed(0.25 * (i % 3) - 0.25, 0.15 + 0.22 * (i / 9), 0.25 * (i / 3 % 3) - 0.25), def));
+    }
+    world.step(180);
+    world.add(ball(0.4, support::fixed(0, 0.2, 0)));
+    double worst = 0, deepest = 0, fastest = 0;
+    for (int tick = 0; tick < 360; ++tick) {
+        world.step();
+        worst = std::max(worst, energy_of(world));
+        for (const lks_body_id box : boxes) {
+            const BodyState state = state_of(world, box);
+            fastest = std::max(fastest, state.velocity.length());
+            deepest = tick < 180 ? 0 : std::max(deepest, 0.4 - (state.position - Vector{0, 0.2, 0}).length());
+        }
+    }
+    const std::string scene = "ball of 80 cm appears in a pile of 27 boxes";
+    expect_at_most(scene, "fastest box", "m/s", 10, fastest);
+    expect_at_most(scene, "kinetic energy, worst", "J", 200, worst);
+    expect_at_most(scene, "kinetic energy, after 6 s", "J", 0.1, energy_of(world));
+    expect_at_most(scene, "a box's middle inside it, after 3 s", "m", 0, deepest);
+}

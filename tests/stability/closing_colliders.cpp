@@ -1,0 +1,103 @@
+// Kinematic colliders that close on a cloth and leave it no way out, and open again.
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <string>
+
+#include "stability/support/table.h"
+#include "stability/support/trial.h"
+
+using namespace support;
+using namespace stability;
+
+namespace {
+
+Net small_net() {
+    Net net;
+    net.side = 20;
+    net.width = 1;
+    net.particle_mass = 1.0 / 400;
+    net.radius = 0.01;
+    return net;
+}
+
+lks_collider_def block(double x, double y, double z, const lks_vec3& position) {
+    lks_collider_def def = lks_default_collider_def();
+    def.shape = LKS_SHAPE_BOX;
+    def.half_extents = fixed(x, y, z);
+    def.transform.position = position;
+    return def;
+}
+
+struct Bounds {
+    double stretch; // percent, while it is shut
+    double joules;  // kinetic, while it is shut
+    double off;     // percent of the edges, in the end
+};
+
+void judge(const std::string& scene, Trial& trial, int closed_ticks, const Bounds& bounds,
+           const std::function<void(double)>& open) {
+    trial.run(closed_ticks);
+    expect_stretch_at_most(scene + ", closed", trial, bounds.stretch);
+    expect_kinetic_energy_at_most(scene + ", closed", trial, bounds.joules);
+    trial.begin();
+    for (int tick = 1; tick <= 30; ++tick) {
+        open(tick / 30.0);
+        trial.run(1);
+    }
+    trial.run(270);
+    expect_last_off_at_most(scene + ", opened", trial, bounds.off);
+    expect_kinetic_energy_at_most(scene + ", opened", trial, 10);
+    // Out of all of them, once there is room.
+    trial.begin();
+    trial.run(1);
+    expect_depth_at_most(scene + ", opened, at the end", trial, 1e-5);
+    expect_nothing_clamped(trial);
+}
+
+} // namespace
+
+TEST_CASE("two blocks meet on a hanging cloth and go into each other") {
+    const Net net = small_net();
+    const Asset asset = net.build();
+    Trial trial(subject_of(net, asset));
+    trial.pin(0);
+    trial.pin(19);
+    const auto left = [](double shut) { return fixed(0, -0.2, -1.0 + 0.65 * shut); };
+    const auto right = [](double shut) { return fixed(0, -0.2, 1.0 - 0.65 * shut); };
+    // Higher and wider than the cloth, pins and all, and a metre thick: shut, they overlap by 30 cm.
+    const std::size_t a = trial.add(block(1, 1.5, 0.5, left(0)));
+    const std::size_t b = trial.add(block(1, 1.5, 0.5, right(0)));
+    trial.run(120);
+    trial.begin();
+    for (int tick = 1; tick <= 30; ++tick) {
+        trial.move_to(a, left(tick / 30.0));
+        trial.move_to(b, right(tick / 30.0));
+        trial.run(1);
+    }
+    judge("cloth between two blocks", trial, 120, {400, 30, 1}, [&](double opened) {
+        trial.move_to(a, left(1 - opened));
+        trial.move_to(b, right(1 - opened));
+    });
+}
+
+TEST_CASE("a press goes through the ground with a cloth under it") {
+    const Net net = small_net();
+    const Asset asset = net.build();
+    Subject subject = subject_of(net, asset);
+    subject.transform = turned(at(0, 0.05, 0), 1, 0, 0, 90);
+    Trial trial(subject);
+    lks_collider_def ground = lks_default_collider_def();
+    ground.shape = LKS_SHAPE_PLANE;
+    trial.add(ground);
+    const auto height = [](double shut) { return fixed(0, 0.5 - 0.4 * shut, 0); };
+    const std::size_t press = trial.add(block(0.3, 0.2, 0.3, height(0)));
+    trial.run(60);
+    trial.begin();
+    for (int tick = 1; tick <= 30; ++tick) {
+        trial.move_to(press, height(tick / 30.0));
+        trial.run(1);
+    }
+    judge("cloth under a press", trial, 120, {600, 5, 2},
+          [&](double opened) { trial.move_to(press, height(1 - opened)); });
+}

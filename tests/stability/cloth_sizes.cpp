@@ -1,0 +1,69 @@
+// Cloths of 2 × 2 to 512 × 512, with edges of a micrometre and of ten metres.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "stability/support/table.h"
+#include "stability/support/trial.h"
+
+using namespace support;
+using namespace stability;
+
+namespace {
+
+struct Size {
+    std::uint32_t side;
+    double edge;
+    std::uint32_t hz, substeps;
+    int ticks;
+    double stretch; // percent
+};
+
+void hang(const Size& size) {
+    Net net;
+    net.side = size.side;
+    net.width = size.edge * (size.side - 1);
+    net.particle_mass = 1.0 / (static_cast<double>(size.side) * size.side);
+    const Asset asset = net.build();
+    Subject subject = subject_of(net, asset);
+    subject.world = world_def(size.hz, size.substeps);
+    subject.transform = turned(lks_transform_identity(), 1, 0, 0, 90);
+    Trial trial(subject);
+    trial.pin(0);
+    trial.pin(net.side - 1);
+    trial.run(size.ticks);
+    const std::string name = named("cloth ", size.side, " × ", size.side, ", edges of ", size.edge, " m, ",
+                                   size.hz, " Hz × ", size.substeps, ", ", size.ticks, " ticks");
+    expect_stretch_at_most(name, trial, size.stretch);
+    expect_gain_at_most(name, trial, 1);
+    expect_nothing_clamped(trial);
+}
+
+} // namespace
+
+TEST_CASE("cloths with edges of a centimetre hang whatever their number") {
+    hang({2, 0.01, 60, 20, 60, 1e-4});
+    hang({3, 0.01, 60, 20, 60, 3});
+    hang({8, 0.01, 60, 20, 60, 6});
+    hang({64, 0.01, 60, 20, 60, 300});
+    hang({512, 0.01, 60, 20, long_runs() ? 120 : 1, long_runs() ? 1e4 : 6});
+}
+
+TEST_CASE("cloths with edges of a micrometre hang") {
+    // In a substep of 1/1200 s gravity moves a particle by seven of their edges.
+    hang({2, 1e-6, 60, 20, 60, 0.01});
+    hang({8, 1e-6, 60, 20, 60, 1e4});
+    hang({64, 1e-6, 60, 20, 30, 1.5e6});
+    hang({2, 1e-6, 1000, 100, 20, 0.01});
+    hang({8, 1e-6, 1000, 100, 20, 8});
+    hang({64, 1e-6, 1000, 100, 5, 500});
+    if (long_runs()) {
+        hang({512, 1e-6, 1000, 100, 20, 1e6});
+    }
+}
+
+TEST_CASE("cloths with edges of ten metres hang") {
+    hang({2, 10, 60, 20, 600, 1e-5});
+    hang({4, 10, 60, 20, 600, 0.1});
+    hang({8, 10, 60, 20, 600, 0.3});
+}

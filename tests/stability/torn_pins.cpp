@@ -1,0 +1,89 @@
+// Pins torn apart by 100 m within a tick, and brought back within one.
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "stability/support/table.h"
+#include "stability/support/trial.h"
+
+using namespace support;
+using namespace stability;
+
+namespace {
+
+struct Bounds {
+    double stretch; // percent, torn apart
+    double seconds; // until it has recovered
+    double end;     // percent, brought back
+};
+
+constexpr double joules = 1e6; // of a kilogram at a thousand metres a second, twice
+
+void tear(const std::string& scene, Trial& trial, const std::vector<std::uint32_t>& pins,
+          const Bounds& bounds) {
+    const std::vector<Vector> start = trial.positions();
+    for (const std::uint32_t pin : pins) {
+        trial.pin(pin);
+    }
+    trial.run(60);
+    for (std::size_t i = 0; i < pins.size(); ++i) {
+        trial.set_target(pins[i], {i % 2 == 0 ? -50.0 : 50.0, 0, 0});
+    }
+    trial.begin();
+    trial.run(60);
+    expect_stretch_at_most(scene + ", torn apart", trial, bounds.stretch);
+    expect_kinetic_energy_at_most(scene + ", torn apart", trial, joules);
+    for (const std::uint32_t pin : pins) {
+        trial.set_target(pin, start[pin]);
+    }
+    trial.begin();
+    trial.run(900);
+    expect_recovery_within(scene + ", brought back", trial, bounds.seconds);
+    expect_last_stretch_at_most(scene + ", brought back", trial, bounds.end);
+    expect_kinetic_energy_at_most(scene + ", brought back", trial, joules);
+    tell(scene, "positions clamped", "", static_cast<double>(trial.world().counters().position_clamps));
+    CHECK(trial.world().counters().target_clamps == 0);
+    tell(scene, "speeds clamped", "", static_cast<double>(trial.world().counters().speed_clamps));
+}
+
+} // namespace
+
+TEST_CASE("cloths and ropes whose pins are torn apart by 100 m in a tick recover") {
+    for (const std::uint32_t substeps : {20u, 1u}) {
+        const bool one = substeps == 1;
+        // With a single substep they stretch by about their length at rest.
+        const double tolerance = one ? 1.5 : 0.05;
+        Net net;
+        net.side = 12;
+        net.width = 1;
+        net.particle_mass = 1.0 / 144;
+        const Asset cloth = net.build();
+        Subject subject = subject_of(net, cloth);
+        subject.world = world_def(60, substeps);
+        subject.tolerance = tolerance;
+        Trial trial(subject);
+        tear(named("inextensible cloth 12 × 12, ", substeps, " × 1"), trial, {0, 11, 132, 143},
+             one ? Bounds{1e5, 1, 100} : Bounds{6e4, 0.2, 1});
+
+        net.stretch = net.shear = net.bend = soft(1e-3, 1);
+        const Asset soft_cloth = net.build();
+        subject = subject_of(net, soft_cloth);
+        subject.world = world_def(60, substeps);
+        subject.tolerance = tolerance;
+        Trial soft_trial(subject);
+        tear(named("cloth of 1e-3 m/N, ", substeps, " × 1"), soft_trial, {0, 11, 132, 143},
+             one ? Bounds{1e5, 1, 100} : Bounds{6e4, 1, 3});
+
+        Chain chain;
+        chain.segments = 30;
+        chain.particle_mass = 0.01;
+        const Asset rope = chain.build();
+        subject = subject_of(chain, rope);
+        subject.world = world_def(60, substeps);
+        subject.tolerance = tolerance;
+        Trial rope_trial(subject);
+        tear(named("rope of 30, ", substeps, " × 1"), rope_trial, {0, 30},
+             one ? Bounds{1.5e5, 15, 300} : Bounds{6e4, 5, 5});
+    }
+}

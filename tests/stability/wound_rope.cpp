@@ -1,0 +1,97 @@
+// A rope wound twenty times around a pole, and pulled: Euler's and Eytelwein's capstan.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "stability/support/table.h"
+#include "stability/support/trial.h"
+
+using namespace support;
+using namespace stability;
+
+namespace {
+
+constexpr int turns = 20;
+constexpr int a_turn = 24; // points
+constexpr int loose = 20;  // hang down on either side
+
+// The pole lies along z; the rope's first point hangs at its left, the last one, which is heavy, at its
+// right.
+struct Bounds {
+    double joules; // kinetic, at the end
+    double sinks;  // metres
+};
+
+void wind(const std::string& scene, double friction, const Bounds& bounds) {
+    std::vector<double> points;
+    constexpr double radius = 0.1105, step = 0.03;
+    for (int i = loose; i > 0; --i) {
+        points.insert(points.end(), {-radius, -step * i, -0.22});
+    }
+    for (int i = 0; i <= turns * a_turn + a_turn / 2; ++i) {
+        const double angle = std::numbers::pi - 2 * std::numbers::pi * i / a_turn;
+        points.insert(points.end(),
+                      {radius * std::cos(angle), radius * std::sin(angle), -0.22 + 0.022 * i / a_turn});
+    }
+    const double end = -0.22 + 0.022 * (turns + 0.5);
+    for (int i = 1; i <= loose; ++i) {
+        points.insert(points.end(), {radius, -step * i, end});
+    }
+    std::vector<double> masses(points.size() / 3, 0.01);
+    masses.back() = 1;
+    lks_rope_def def = lks_default_rope_def();
+    def.segments = 0;
+    def.length = 0;
+    def.point_count = static_cast<std::uint32_t>(masses.size());
+    def.points = points.data();
+    def.mass = def.linear_density = 0;
+    def.vertex_masses = masses.data();
+    def.stretch = stiff();
+    def.bend = off;
+    def.particle_radius = 0.01;
+    def.friction = 1;
+    const Asset rope(def);
+    Subject subject;
+    subject.asset = &rope;
+    subject.masses = masses;
+    subject.materials = {stiff(), off, off};
+    subject.radius = 0.01;
+    Trial trial(subject);
+    lks_collider_def pole = lks_default_collider_def();
+    pole.shape = LKS_SHAPE_CAPSULE;
+    pole.radius = support::fixed(0.1);
+    pole.half_length = support::fixed(1);
+    pole.transform = turned(at(0, 0, 0), 1, 0, 0, 90);
+    pole.static_friction = support::fixed(friction);
+    pole.dynamic_friction = support::fixed(friction);
+    trial.add(pole);
+    if (friction == 0) {
+        trial.pin(0);
+    }
+    const double tail = trial.positions()[0].y;
+    const double weight = trial.positions().back().y;
+    trial.run(240);
+    expect_depth_at_most(scene, trial, 1e-5);
+    expect_stretch_at_most(scene, trial, 30);
+    expect_last_stretch_at_most(scene, trial, 20);
+    expect_gain_at_most(scene, trial, 1);
+    expect_last_kinetic_energy_at_most(scene, trial, bounds.joules);
+    const std::uint32_t last = static_cast<std::uint32_t>(trial.size()) - 1;
+    expect_at_most(scene, "weight sank", "m", bounds.sinks, weight - trial.positions()[last].y,
+                   weight - trial.twin_position(last).y);
+    if (friction > 0) {
+        expect_at_most(scene, "tail slipped", "m", 0.01, std::abs(trial.positions()[0].y - tail),
+                       std::abs(trial.twin_position(0).y - tail));
+    }
+    expect_nothing_clamped(trial);
+}
+
+} // namespace
+
+TEST_CASE("a rope wound twenty times around a pole holds a weight") {
+    wind("rope 20 times around a pole, friction 0.5", 0.5, {0.01, 0.1});
+    wind("rope 20 times around a smooth pole, its tail pinned", 0, {0.5, 1.2});
+}
