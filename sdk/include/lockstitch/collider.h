@@ -2,7 +2,8 @@
  *
  * A particle is kept particle_radius away from every collider. Particles at up to 100 m/s do not pass through
  * a 5 cm plate or a 10 cm ball: a fast particle is traced along its way through the substep (sphere tracing
- * of the exact distance), in the collider's own moving frame. Friction is Coulomb's, static and dynamic.
+ * of the exact distance), in the collider's own moving frame. Friction is Coulomb's, static and dynamic. What
+ * is inside already, since a collider was put there or another one leaves no room, gets out at 3 m/s.
  */
 #ifndef LOCKSTITCH_COLLIDER_H
 #define LOCKSTITCH_COLLIDER_H
