@@ -4,6 +4,7 @@
 
 #include <lockstitch/simd.h>
 
+#include "kernels/chain_task.h"
 #include "kernels/contact_task.h"
 #include "kernels/distance_task.h"
 #include "kernels/prediction_task.h"
@@ -17,6 +18,7 @@ struct Kernels {
     // Bit i: particle first + i may be touched; count ≤ 64.
     std::uint64_t (*near_box)(const BoxTask& task, std::uint32_t first, std::uint32_t count);
     std::uint64_t (*near_plane)(const PlaneTask& task, std::uint32_t first, std::uint32_t count);
+    void (*measure_chain)(ChainSegments& segments);
     // XXH3_64bits_update.
     void (*hash_update)(void* state, const void* bytes, std::size_t size);
 };

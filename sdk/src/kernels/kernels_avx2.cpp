@@ -2,6 +2,7 @@
 
 #if defined(LKS_HAS_AVX2)
 
+#include "kernels/chain_lanes.h"
 #include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
@@ -16,6 +17,7 @@ const Kernels kernels_avx2{LKS_SIMD_AVX2,
                            leaving<LanesAvx2, predict_lanes<LanesAvx2>>,
                            leaving<LanesAvx2, near_box_lanes<LanesAvx2>>,
                            leaving<LanesAvx2, near_plane_lanes<LanesAvx2>>,
+                           leaving<LanesAvx2, measure_chain_lanes<LanesAvx2>, ChainSegments&>,
                            leaving<LanesAvx2, hash_update>};
 
 } // namespace lks

@@ -7,6 +7,7 @@
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
+#include "kernels/chain_lanes.h"
 #include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
@@ -34,6 +35,7 @@ const Kernels kernels_avx512{LKS_SIMD_AVX512,
                              leaving<LanesAvx512, predict_lanes<LanesAvx512, LanesAvx2>>,
                              leaving<LanesAvx512, near_box_lanes<LanesAvx512>>,
                              leaving<LanesAvx512, near_plane_lanes<LanesAvx512>>,
+                             leaving<LanesAvx512, measure_chain_lanes<LanesAvx512>, ChainSegments&>,
                              leaving<LanesAvx512, hash_update>};
 
 } // namespace lks

@@ -2,6 +2,7 @@
 
 #if defined(LKS_HAS_NEON)
 
+#include "kernels/chain_lanes.h"
 #include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
@@ -15,6 +16,7 @@ const Kernels kernels_neon{LKS_SIMD_NEON,
                            predict_lanes<LanesNeon>,
                            near_box_lanes<LanesNeon>,
                            near_plane_lanes<LanesNeon>,
+                           measure_chain_lanes<LanesNeon>,
                            hash_update};
 
 } // namespace lks

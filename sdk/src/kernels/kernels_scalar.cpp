@@ -1,3 +1,4 @@
+#include "kernels/chain_scalar.h"
 #include "kernels/compiled_kernels.h"
 #include "kernels/contact_scalar.h"
 #include "kernels/distance_scalar_loop.h"
@@ -6,7 +7,7 @@
 
 namespace lks {
 
-const Kernels kernels_scalar{LKS_SIMD_SCALAR, project_scalar,    predict_scalar,
-                             near_box_scalar, near_plane_scalar, hash_update};
+const Kernels kernels_scalar{LKS_SIMD_SCALAR,   project_scalar,       predict_scalar, near_box_scalar,
+                             near_plane_scalar, measure_chain_scalar, hash_update};
 
 } // namespace lks

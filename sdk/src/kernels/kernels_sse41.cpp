@@ -2,6 +2,7 @@
 
 #if defined(LKS_HAS_SSE41)
 
+#include "kernels/chain_lanes.h"
 #include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
@@ -15,6 +16,7 @@ const Kernels kernels_sse41{LKS_SIMD_SSE41,
                             predict_lanes<LanesSse41>,
                             near_box_lanes<LanesSse41>,
                             near_plane_lanes<LanesSse41>,
+                            measure_chain_lanes<LanesSse41>,
                             hash_update};
 
 } // namespace lks

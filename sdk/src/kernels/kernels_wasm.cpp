@@ -2,6 +2,7 @@
 
 #if defined(LKS_HAS_WASM)
 
+#include "kernels/chain_lanes.h"
 #include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
@@ -15,6 +16,7 @@ const Kernels kernels_wasm{LKS_SIMD_WASM,
                            predict_lanes<LanesWasm>,
                            near_box_lanes<LanesWasm>,
                            near_plane_lanes<LanesWasm>,
+                           measure_chain_lanes<LanesWasm>,
                            hash_update};
 
 } // namespace lks

@@ -7,6 +7,7 @@
 #include "fixed/int128.h"
 #include "fixed/reciprocal_sqrt.h"
 #include "fixed/vector.h"
+#include "kernels/measure_segment.h"
 #include "solver/wrapping.h"
 
 namespace lks {
@@ -17,8 +18,7 @@ using fixed::multiply_shift;
 using fixed::multiply_unsigned;
 using fixed::Vec3;
 
-constexpr int cosine_bits = 2 * direction_fraction_bits;
-constexpr std::int64_t cosine_one = std::int64_t{1} << cosine_bits;
+constexpr std::int64_t cosine_one = std::int64_t{1} << cosine_fraction_bits;
 // κ up to this is stable by itself.
 constexpr std::uint64_t stable_stiffness = unit_one / 4;
 constexpr std::uint64_t greatest_stiffness = std::uint64_t{1} << 60;
@@ -32,6 +32,8 @@ constexpr std::uint64_t rest_one = std::uint64_t{1} << rest_bits;
 constexpr std::uint64_t greatest_rest = std::uint64_t{1} << 62;
 // How much longer than the distance of its pins a piece of rope is taken to be at least.
 constexpr std::uint64_t least_slack = rest_one >> 24;
+// What a multiplier may be raised by for the upper half of its product.
+constexpr std::int64_t multiplier_room = std::int64_t{1} << (64 - chain_share_bits);
 // Where a rope folds back by more than 176 degrees there is no "along".
 constexpr std::uint32_t least_tangent = direction_one / 1024;
 
@@ -43,14 +45,18 @@ std::uint64_t reciprocal_of(std::uint64_t m) {
     return (y << 32) + static_cast<std::uint64_t>((error * static_cast<std::int64_t>(y)) >> 29);
 }
 
-// a·b / 2^bits, rounded down.
+// a·b / 2^bits, rounded down; 0 < bits < 64. From the halves by hand: compilers keep those of a shifted
+// structure in memory.
 std::uint64_t share_of(std::uint64_t a, std::uint64_t b, int bits) {
-    return (multiply_unsigned(a, b) >> bits).lo;
+    const fixed::UInt128 product = multiply_unsigned(a, b);
+    return (product.hi << (64 - bits)) + (product.lo >> bits);
 }
 
 // The same, where the result has 63 bits at most.
 std::int64_t share_of(std::int64_t a, std::int64_t b, int bits) {
-    return static_cast<std::int64_t>((fixed::multiply_signed(a, b) >> bits).lo);
+    const fixed::Int128 product = fixed::multiply_signed(a, b);
+    return static_cast<std::int64_t>((static_cast<std::uint64_t>(product.hi) << (64 - bits)) +
+                                     (product.lo >> bits));
 }
 
 std::int64_t unit_share(std::uint32_t unit, std::int64_t value) {
@@ -61,54 +67,33 @@ Vec3 unit_share(std::uint32_t unit, const Vec3& v) {
     return {unit_share(unit, v.x), unit_share(unit, v.y), unit_share(unit, v.z)};
 }
 
-// The direction and the length of a segment; false where it has none.
-bool measure(const Vec3& d, fixed::NormalisedVector& out) {
-    const auto size = [](std::int64_t v) { return static_cast<std::uint64_t>(v ^ (v >> 63)); };
-    const int shift = 33 - std::countl_zero(size(d.x) | size(d.y) | size(d.z));
-    // From 0.1 µm to 16 m; what is not is rare.
-    if (shift < 1 || shift > 29) {
-        return fixed::normalise(d, out);
-    }
-    const auto narrow = [shift](std::int64_t v) { return (v + (std::int64_t{1} << (shift - 1))) >> shift; };
-    const std::int64_t x = narrow(d.x);
-    const std::int64_t y = narrow(d.y);
-    const std::int64_t z = narrow(d.z);
-    // From 2^60 to 3·2^62.
-    const std::uint64_t squared = static_cast<std::uint64_t>(x * x) + static_cast<std::uint64_t>(y * y) +
-                                  static_cast<std::uint64_t>(z * z);
-    const int up = std::countl_zero(squared) >> 1;
-    const std::uint64_t m = squared << (2 * up);
-    const std::uint64_t reciprocal = fixed::reciprocal_sqrt_mantissa(static_cast<std::uint32_t>(m >> 32));
-    const auto component = [&](std::int64_t v) {
-        return static_cast<std::int32_t>(
-            (v * static_cast<std::int64_t>(reciprocal) + (std::int64_t{1} << (31 - up))) >> (32 - up));
-    };
-    out.direction = {component(x), component(y), component(z)};
-    const std::uint64_t root = multiply_unsigned(m, reciprocal << 32).hi;
-    out.length =
-        static_cast<std::int64_t>((root + (std::uint64_t{1} << (29 + up - shift))) >> (30 + up - shift));
-    return true;
-}
-
 class ChainSolve {
 public:
     ChainSolve(const ChainCoefficients& chain, const FamilyCoefficients& family, const DistanceArrays& arrays,
-               ChainWork* work, bool torn)
-        : chain_(chain), family_(family), arrays_(arrays), work_(work), torn_(torn),
+               const Kernels& kernels, ChainWork* work, bool torn)
+        : chain_(chain), family_(family), arrays_(arrays), kernels_(kernels), work_(work), torn_(torn),
+          eased_(arrays.multipliers != nullptr && chain.softness != 0),
           softness_(std::max(chain.softness, least_softness)),
           count_(static_cast<std::uint32_t>(chain.segments.size())),
           movement_down_(chain.weight_exponent - chain.multiplier_exponent) {}
 
     bool run() {
-        if (!eliminate()) {
+        const bool simple = !torn_ && !eased_ && family_.damping_share == 0 && chain_.pinned_count < 2;
+        if (!(simple ? eliminate<true>() : eliminate<false>())) {
             return false;
         }
-        if (substitute()) {
-            gather();
-            spread();
-            keep_across();
+        const bool stiff = arrays_.multipliers != nullptr ? substitute<true>() : substitute<false>();
+        if (!stiff) {
+            each_movement([&](std::uint32_t i, const Vec3& v) { move(i, v); });
+            return true;
         }
-        move();
+        each_movement([&](std::uint32_t i, const Vec3& v) { work_[i].movement = v; });
+        gather();
+        if (chain_.pinned_count != 0) {
+            spread_and_move<true>();
+        } else {
+            spread_and_move<false>();
+        }
         return true;
     }
 
@@ -126,60 +111,116 @@ private:
         return chain_.particles[index].weight >> chain_.weight_exponent;
     }
 
-    // The rows from the far end to the near one. False: a segment is torn.
+    // Of the row behind the one at hand.
+    struct Row {
+        std::uint64_t share;      // x
+        std::uint64_t sum;        // t + σ
+        std::int64_t change;      // its right side
+        std::uint64_t far_weight; // of the particle between them
+        bool directed;
+    };
+
+    // The rows from the far end to the near one. False: a segment is torn. `simple`: neither that nor
+    // multipliers, damping or two pins need be looked at.
+    template <bool simple>
     bool eliminate() {
-        // Of the row behind: its direction, x, t + σ, and its right side.
+        ChainSegments segments;
+        Row behind{0, 0, 0, weight(count_), false};
         Direction next{};
-        bool next_directed = false;
-        std::uint64_t share = 0;
-        std::uint64_t next_sum = 0;
-        std::int64_t next_change = 0;
-        std::uint64_t far_weight = weight(count_);
-        Vec3 far = position(count_);
-        for (std::uint32_t j = count_; j-- > 0;) {
-            const Vec3 near = position(j);
-            fixed::NormalisedVector n{};
-            const bool directed = measure(far - near, n);
-            if (chain_.pinned_count > 1 && far_weight == 0) {
-                taut_ = tautness(j);
+        for (std::uint32_t last = count_; last > 0;) {
+            segments.count = std::min(last, chain_block);
+            const std::uint32_t first = last - segments.count;
+            take_points(segments, first);
+            segments.directions[0][segments.count] = next.x;
+            segments.directions[1][segments.count] = next.y;
+            segments.directions[2][segments.count] = next.z;
+            kernels_.measure_chain(segments);
+            if (!eliminate_rows<simple>(segments, first, behind)) {
+                return false;
             }
-            const std::int64_t rest = rest_length(j);
-            if (!torn_ && n.length > rest && n.length - rest > chain_.segments[j].slack) {
-                return false; // torn
-            }
-            std::uint64_t behind = far_weight;
-            std::int64_t change = directed ? wanted_change(j, rest, n) : 0;
-            if (j + 1 < count_) {
-                const Turn turn =
-                    directed && next_directed ? turn_between(n.direction, next) : Turn{0, cosine_one};
-                behind = share_of(share, next_sum + share_of(far_weight, turn.sine_squared, cosine_bits),
-                                  chain_share_bits);
-                const std::int64_t carried =
-                    share_of(turn.cosine, static_cast<std::int64_t>(share), cosine_bits);
-                work_[j + 1].carried = carried;
-                change = saturating_add(change, share_of(carried, next_change, chain_share_bits));
-            }
-            const std::uint64_t near_weight = weight(j);
-            const std::uint64_t sum = behind + softness_;
-            const std::uint64_t diagonal = near_weight + sum;
-            std::int64_t own = 0;
-            share = 0;
-            if (diagonal != 0) {
-                const int up = std::countl_zero(diagonal);
-                const std::uint64_t reciprocal = reciprocal_of(diagonal << up);
-                share = multiply_unsigned(near_weight << up, reciprocal).hi;
-                own = directed ? quotient_of(change, reciprocal, up) : 0;
-            }
-            work_[j].own = own;
-            work_[j].direction = n.direction;
-            next = n.direction;
-            next_directed = directed;
-            next_sum = sum;
-            next_change = change;
-            far_weight = near_weight;
-            far = near;
+            next = work_[first].direction;
+            last = first;
         }
         work_[0].carried = 0;
+        return true;
+    }
+
+    void take_points(ChainSegments& segments, std::uint32_t first) const {
+        const ChainParticle* const particles = chain_.particles.data() + first;
+        const std::int64_t* const x = arrays_.x;
+        const std::int64_t* const y = arrays_.y;
+        const std::int64_t* const z = arrays_.z;
+        const std::uint32_t count = segments.count;
+        for (std::uint32_t i = 0; i <= count; ++i) {
+            const std::uint32_t p = particles[i].particle;
+            segments.points[0][i] = x[p];
+            segments.points[1][i] = y[p];
+            segments.points[2][i] = z[p];
+        }
+    }
+
+    static Direction direction_of(const ChainSegments& segments, std::uint32_t i) {
+        return {static_cast<std::int32_t>(segments.directions[0][i]),
+                static_cast<std::int32_t>(segments.directions[1][i]),
+                static_cast<std::int32_t>(segments.directions[2][i])};
+    }
+
+    template <bool simple>
+    bool eliminate_rows(const ChainSegments& segments, std::uint32_t first, Row& behind) {
+        // All by value: what is written to `work_` can't be thought to change it.
+        const int weight_exponent = chain_.weight_exponent;
+        const int multiplier_exponent = chain_.multiplier_exponent;
+        const std::uint64_t softness = softness_;
+        const bool torn = torn_;
+        const ChainSegment* const coefficients = chain_.segments.data() + first;
+        const ChainParticle* const particles = chain_.particles.data() + first;
+        ChainWork* const work = work_ + first;
+        Row row = behind;
+        bool last = first + segments.count == count_;
+        for (std::uint32_t i = segments.count; i-- > 0;) {
+            const std::int64_t length = segments.lengths[i];
+            const bool directed = length != 0;
+            std::int64_t rest = coefficients[i].rest_length;
+            if constexpr (!simple) {
+                if (chain_.pinned_count > 1 && row.far_weight == 0) {
+                    taut_ = tautness(first + i);
+                }
+                rest = rest_length(first + i);
+            }
+            // Neither is negative.
+            if ((simple || !torn) && length - rest > coefficients[i].slack) {
+                return false; // torn
+            }
+            std::int64_t change = 0;
+            if (directed) {
+                change = simple ? wanted_length_change(length, rest, substep_motion_limit)
+                                : wanted_change(first + i, rest, {direction_of(segments, i), length});
+            }
+            std::uint64_t sum = row.far_weight + softness;
+            if (!last) {
+                const Turn turn =
+                    directed && row.directed ? turn_by(segments.versines[i]) : Turn{0, cosine_one};
+                // x is below one by the least softness: its product's upper half is the whole shift.
+                sum = multiply_unsigned(row.share << (64 - chain_share_bits),
+                                        row.sum +
+                                            share_of(row.far_weight, turn.sine_squared, cosine_fraction_bits))
+                          .hi +
+                      softness;
+                const std::int64_t carried =
+                    share_of(turn.cosine, static_cast<std::int64_t>(row.share), cosine_fraction_bits);
+                work[i + 1].carried = carried;
+                change = fixed::saturating_add(change, share_of(carried, row.change, chain_share_bits));
+            }
+            last = false;
+            const std::uint64_t near_weight = particles[i].weight >> weight_exponent;
+            const std::uint64_t diagonal = near_weight + sum;
+            const int up = std::countl_zero(diagonal);
+            const std::uint64_t reciprocal = reciprocal_of(diagonal << up);
+            work[i].own = directed ? quotient_of(change, reciprocal, multiplier_exponent - up) : 0;
+            work[i].direction = direction_of(segments, i);
+            row = {multiply_unsigned(near_weight << up, reciprocal).hi, sum, change, near_weight, directed};
+        }
+        behind = row;
         return true;
     }
 
@@ -202,7 +243,7 @@ private:
         }
         fixed::NormalisedVector pins{};
         if (chain_.particles[first].weight != 0 || chain_.softness > elastic_softness ||
-            !measure(position(last + 1) - position(first), pins)) {
+            !measure_segment(position(last + 1) - position(first), pins)) {
             return rest_one;
         }
         const auto apart = static_cast<std::uint64_t>(pins.length >> down);
@@ -213,51 +254,55 @@ private:
     }
 
     // A change over a diagonal, as a multiplier.
-    std::int64_t quotient_of(std::int64_t change, std::uint64_t reciprocal, int up) const {
-        const auto factor = static_cast<std::int64_t>(std::min<std::uint64_t>(reciprocal, INT64_MAX));
-        const int down = chain_.multiplier_exponent - up;
+    static std::int64_t quotient_of(std::int64_t change, std::uint64_t reciprocal, int down) {
+        // 2^63 at most.
+        const auto factor = static_cast<std::int64_t>(reciprocal - (reciprocal >> 63));
         return bounded_multiplier(down >= 0 ? fixed::multiply_signed(change, factor).hi >> down
                                             : multiply_shift(change, factor, 64 + down));
     }
 
-    // Of two segments that follow each other, 60 fraction bits. From the difference of their directions:
-    // exact where a rope is nearly straight.
+    // Between two segments that follow each other, 60 fraction bits.
     struct Turn {
         std::int64_t cosine;
         std::uint64_t sine_squared;
     };
 
-    static Turn turn_between(const Direction& a, const Direction& b) {
-        const std::int64_t x = std::int64_t{a.x} - b.x;
-        const std::int64_t y = std::int64_t{a.y} - b.y;
-        const std::int64_t z = std::int64_t{a.z} - b.z;
-        const std::int64_t versine = std::min((x * x + y * y + z * z) >> 1, 2 * cosine_one);
-        const std::uint64_t sine_squared =
-            share_of(static_cast<std::uint64_t>(versine),
-                     static_cast<std::uint64_t>(2 * cosine_one - versine), cosine_bits);
-        return {cosine_one - versine, sine_squared};
+    static Turn turn_by(std::int64_t versine) {
+        return {cosine_one - versine,
+                share_of(static_cast<std::uint64_t>(versine),
+                         static_cast<std::uint64_t>(2 * cosine_one - versine), cosine_fraction_bits)};
     }
 
-    // −c·C − σ·λ − γ'·n·(motion): how much longer the segment is to become. It may double or close, no more,
-    // and by no more than particles move in a substep.
+    // It may double or close, no more, and by no more than the limit.
+    static std::int64_t wanted_length_change(std::int64_t length, std::int64_t rest, std::int64_t limit) {
+        const std::int64_t change = rest - length;
+        if (change <= length && length <= limit) {
+            return change; // it is not below −length
+        }
+        const std::int64_t most = std::min(length, limit);
+        return std::clamp(change, -most, most);
+    }
+
+    // −c·C − σ·λ − γ'·n·(motion): how much longer the segment is to become, by no more than particles move in
+    // a substep.
     std::int64_t wanted_change(std::uint32_t index, std::int64_t rest,
                                const fixed::NormalisedVector& n) const {
         const ChainSegment& segment = chain_.segments[index];
         const std::int64_t limit =
             torn_ ? std::min(segment.slack / 2, substep_motion_limit) : substep_motion_limit;
-        const std::int64_t most = std::min(n.length, limit);
-        std::int64_t change = std::clamp(saturating_subtract(rest, n.length), -most, most);
+        std::int64_t change = wanted_length_change(n.length, rest, limit);
         if (family_.damping_share != 0) {
             const Vec3 motion = (position(index + 1) - start(index + 1)) - (position(index) - start(index));
             const auto bounded = [](std::int64_t v) {
                 return std::clamp(v, -coordinate_limit, coordinate_limit);
             };
+            const std::int64_t most = std::min(n.length, limit);
             const std::int64_t along =
                 fixed::dot(n.direction, Vec3{bounded(motion.x), bounded(motion.y), bounded(motion.z)});
             change = unit_share(family_.error_share, change) -
                      unit_share(family_.damping_share, std::clamp(along, -most, most));
         }
-        if (arrays_.multipliers != nullptr && chain_.softness != 0) {
+        if (eased_) {
             const int up = chain_.multiplier_exponent;
             const std::int64_t greatest = coordinate_limit >> up;
             const std::int64_t eased =
@@ -268,59 +313,92 @@ private:
         return change;
     }
 
-    // Multipliers from the near end to the far one, and how the particles move. Whether any tension is more
-    // than a chain stands by itself.
+    // Multipliers from the near end to the far one. Whether any tension is more than a chain stands by
+    // itself.
+    template <bool carried>
     bool substitute() {
+        const std::uint32_t count = count_;
+        const ChainSegment* const segments = chain_.segments.data();
+        ChainWork* const work = work_;
         std::int64_t multiplier = 0;
-        Vec3 pushed{};
         std::uint64_t stiff = 0;
-        for (std::uint32_t j = 0; j < count_; ++j) {
-            ChainWork& w = work_[j];
-            multiplier = bounded_multiplier(w.own + share_of(w.carried, multiplier, chain_share_bits));
-            const auto along = [multiplier](std::int32_t c) {
-                return fixed::multiply_signed(std::int64_t{c} * (std::int64_t{1} << 32), multiplier * 4).hi;
-            };
-            const Vec3 push{along(w.direction.x), along(w.direction.y), along(w.direction.z)};
-            w.stiffness = stiffness(chain_.segments[j], multiplier);
+        for (std::uint32_t j = 0; j < count; ++j) {
+            ChainWork& w = work[j];
+            multiplier = bounded_multiplier(
+                w.own + fixed::multiply_signed(w.carried, multiplier * multiplier_room).hi);
+            w.own = multiplier;
+            w.stiffness = stiffness<carried>(segments[j], multiplier);
             stiff |= w.stiffness;
-            w.movement = movement(chain_.particles[j].weight, pushed - push);
-            pushed = push;
         }
-        work_[count_].stiffness = 0;
-        work_[count_].direction = {};
-        work_[count_].movement = movement(chain_.particles[count_].weight, pushed);
+        work[count].give = 0;
+        work[count].stiffness = 0;
+        work[count].direction = {};
         return stiff != 0;
     }
 
-    Vec3 movement(std::uint64_t weight, const Vec3& push) const {
-        const auto moved = [&](std::int64_t p) {
-            return shift_either_way(fixed::multiply_signed(static_cast<std::int64_t>(weight), p));
-        };
-        return {moved(push.x), moved(push.y), moved(push.z)};
+    // How the particles move by the multipliers.
+    template <typename Use>
+    void each_movement(const Use& use) const {
+        const std::uint32_t count = count_;
+        const ChainParticle* const particles = chain_.particles.data();
+        const ChainWork* const work = work_;
+        const int down = movement_down_;
+        Vec3 pushed{};
+        for (std::uint32_t j = 0; j < count; ++j) {
+            const std::int64_t multiplier = work[j].own * multiplier_room;
+            const auto along = [multiplier](std::int32_t c) {
+                return fixed::multiply_signed(std::int64_t{c} * (std::int64_t{1} << 32), multiplier).hi;
+            };
+            const Direction& n = work[j].direction;
+            const Vec3 push{along(n.x), along(n.y), along(n.z)};
+            use(j, movement(particles[j].weight, pushed - push, down));
+            pushed = push;
+        }
+        use(count, movement(particles[count].weight, pushed, down));
     }
 
     // To the nearest coordinate unit, and no more than particles move in a substep.
-    std::int64_t shift_either_way(const fixed::Int128& product) const {
-        const std::int64_t share = static_cast<std::int64_t>((product >> chain_share_bits).lo) +
-                                   static_cast<std::int64_t>((product.lo >> (chain_share_bits - 1)) & 1);
-        if (movement_down_ > 0) {
-            return std::clamp(fixed::shift_right_rounded(share, movement_down_), -substep_motion_limit,
-                              substep_motion_limit);
+    static Vec3 movement(std::uint64_t weight, const Vec3& push, int down) {
+        const auto share = [weight](std::int64_t p) {
+            const fixed::Int128 product = fixed::multiply_signed(static_cast<std::int64_t>(weight), p);
+            return static_cast<std::int64_t>(
+                (static_cast<std::uint64_t>(product.hi) << (64 - chain_share_bits)) +
+                (((product.lo >> (chain_share_bits - 1)) + 1) >> 1));
+        };
+        const Vec3 shares{share(push.x), share(push.y), share(push.z)};
+        if (down > 0) {
+            const auto moved = [down](std::int64_t s) {
+                return std::clamp(fixed::shift_right_rounded(s, down), -substep_motion_limit,
+                                  substep_motion_limit);
+            };
+            return {moved(shares.x), moved(shares.y), moved(shares.z)};
         }
-        const std::int64_t limit = substep_motion_limit >> -movement_down_;
-        return std::clamp(share, -limit, limit) * (std::int64_t{1} << -movement_down_);
+        const std::int64_t limit = substep_motion_limit >> -down;
+        const std::int64_t unit = std::int64_t{1} << -down;
+        if (within(shares.x, limit) && within(shares.y, limit) && within(shares.z, limit)) {
+            return {shares.x * unit, shares.y * unit, shares.z * unit};
+        }
+        const auto moved = [limit, unit](std::int64_t s) { return std::clamp(s, -limit, limit) * unit; };
+        return {moved(shares.x), moved(shares.y), moved(shares.z)};
+    }
+
+    // Rarely not: one comparison that is foretold is cheaper than two and two choices.
+    static bool within(std::int64_t value, std::int64_t limit) {
+        return static_cast<std::uint64_t>(value) + static_cast<std::uint64_t>(limit) <=
+               2 * static_cast<std::uint64_t>(limit);
     }
 
     // Its products by shares and by directions fit.
     static std::int64_t bounded_multiplier(std::int64_t value) {
         constexpr std::int64_t limit = (std::int64_t{1} << 61) - 1;
-        return std::clamp(value, -limit, limit);
+        return within(value, limit) ? value : std::clamp(value, -limit, limit);
     }
 
     // What κ exceeds the stable one by; adds the change to the multiplier that is carried.
+    template <bool carried>
     std::uint64_t stiffness(const ChainSegment& segment, std::int64_t change) const {
         std::int64_t multiplier = change;
-        if (arrays_.multipliers != nullptr) {
+        if constexpr (carried) {
             std::int64_t& sum = arrays_.multipliers[segment.constraint];
             sum = bounded_multiplier(saturating_add(sum, change));
             multiplier = sum;
@@ -388,34 +466,44 @@ private:
         }
     }
 
-    // What each does with all that is before it.
-    void spread() {
-        for (std::uint32_t j = 0; j < count_; ++j) {
-            if (work_[j].give != 0) {
-                Vec3& far = work_[j + 1].gathered;
-                far = far + unit_share(work_[j].give, work_[j].gathered - far);
-            }
-        }
-    }
-
-    // Changes the movements by what is across the rope of what was spread.
-    void keep_across() {
+    // What each does with all that is before it; of the change, what is across the rope. Without pins the
+    // mean of the changes is taken off again.
+    template <bool pinned>
+    void spread_and_move() {
         Vec3 mean{};
+        Vec3 near{};
+        std::uint32_t give = 0; // of the segment before
+        bool stiff_before = false;
         for (std::uint32_t i = 0; i <= count_; ++i) {
-            if (work_[i].stiffness == 0 && (i == 0 || work_[i - 1].stiffness == 0)) {
-                continue;
+            ChainWork& w = work_[i];
+            Vec3 here = w.gathered;
+            if (give != 0) {
+                here = here + unit_share(give, near - here);
             }
-            const Vec3 across = across_rope(i, work_[i].gathered - work_[i].movement);
-            work_[i].movement = work_[i].movement + across;
-            if (chain_.pinned_count == 0) {
-                const auto share = static_cast<std::int64_t>(chain_.particles[i].mass_share);
-                mean = mean + Vec3{multiply_shift(share, across.x, 63), multiply_shift(share, across.y, 63),
-                                   multiply_shift(share, across.z, 63)};
+            const bool stiff = w.stiffness != 0;
+            Vec3 movement = w.movement;
+            if (stiff || stiff_before) {
+                const Vec3 across = across_rope(i, here - movement);
+                movement = movement + across;
+                if constexpr (!pinned) {
+                    const auto share = static_cast<std::int64_t>(chain_.particles[i].mass_share);
+                    mean =
+                        mean + Vec3{multiply_shift(share, across.x, 63), multiply_shift(share, across.y, 63),
+                                    multiply_shift(share, across.z, 63)};
+                }
             }
+            if constexpr (pinned) {
+                move(i, movement);
+            } else {
+                w.movement = movement;
+            }
+            near = here;
+            give = w.give;
+            stiff_before = stiff;
         }
-        if (chain_.pinned_count == 0) {
+        if constexpr (!pinned) {
             for (std::uint32_t i = 0; i <= count_; ++i) {
-                work_[i].movement = work_[i].movement - mean;
+                move(i, work_[i].movement - mean);
             }
         }
     }
@@ -444,20 +532,20 @@ private:
         return share_of(direction, value, direction_fraction_bits);
     }
 
-    void move() {
-        for (std::uint32_t i = 0; i <= count_; ++i) {
-            const std::uint32_t p = chain_.particles[i].particle;
-            arrays_.x[p] = wrapping_add(arrays_.x[p], work_[i].movement.x);
-            arrays_.y[p] = wrapping_add(arrays_.y[p], work_[i].movement.y);
-            arrays_.z[p] = wrapping_add(arrays_.z[p], work_[i].movement.z);
-        }
+    void move(std::uint32_t index, const Vec3& v) const {
+        const std::uint32_t p = chain_.particles[index].particle;
+        arrays_.x[p] = wrapping_add(arrays_.x[p], v.x);
+        arrays_.y[p] = wrapping_add(arrays_.y[p], v.y);
+        arrays_.z[p] = wrapping_add(arrays_.z[p], v.z);
     }
 
     const ChainCoefficients& chain_;
     const FamilyCoefficients& family_;
-    const DistanceArrays& arrays_;
+    DistanceArrays arrays_;
+    const Kernels& kernels_;
     ChainWork* work_;
     bool torn_;
+    bool eased_; // multipliers so far count
     std::uint64_t softness_;
     std::uint64_t taut_ = rest_one; // what rest lengths are multiplied by in the piece at hand
     std::uint32_t count_;
@@ -467,13 +555,13 @@ private:
 } // namespace
 
 bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
-                 const DistanceArrays& arrays, ChainWork* work) {
-    return ChainSolve(chain, family, arrays, work, false).run();
+                 const DistanceArrays& arrays, const Kernels& kernels, ChainWork* work) {
+    return ChainSolve(chain, family, arrays, kernels, work, false).run();
 }
 
 void mend_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
-                const DistanceArrays& arrays, ChainWork* work) {
-    static_cast<void>(ChainSolve(chain, family, arrays, work, true).run());
+                const DistanceArrays& arrays, const Kernels& kernels, ChainWork* work) {
+    static_cast<void>(ChainSolve(chain, family, arrays, kernels, work, true).run());
 }
 
 } // namespace lks

@@ -33,7 +33,7 @@
 #include <cstdint>
 
 #include "fixed/vector.h"
-#include "kernels/distance_task.h"
+#include "kernels/kernels.h"
 #include "solver/coefficients.h"
 
 namespace lks {
@@ -43,7 +43,7 @@ struct ChainWork {
     fixed::Direction direction; // zero: none
     std::uint32_t give;         // what the far end takes of the near one's movement, Unit
     std::int64_t carried;       // this times the multiplier before ...
-    std::int64_t own;           // ... and this make the multiplier
+    std::int64_t own;           // ... and this make the multiplier, which then replaces it
     std::uint64_t stiffness;    // κ beyond what is stable by itself, Unit
     fixed::Vec3 movement;       // Coordinate
     fixed::Vec3 gathered;
@@ -52,10 +52,10 @@ struct ChainWork {
 // One iteration. `work` has room for all particles. False, and nothing is changed, where a segment is torn:
 // longer than twice its rest length, more where it is soft.
 [[nodiscard]] bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
-                               const DistanceArrays& arrays, ChainWork* work);
+                               const DistanceArrays& arrays, const Kernels& kernels, ChainWork* work);
 
 // The same for a torn rope, whose segments have been swept: changes each by half its length at most.
 void mend_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
-                const DistanceArrays& arrays, ChainWork* work);
+                const DistanceArrays& arrays, const Kernels& kernels, ChainWork* work);
 
 } // namespace lks

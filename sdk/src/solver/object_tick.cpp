@@ -111,10 +111,10 @@ private:
     void solve_rope() {
         const FamilyCoefficients& stretch = coefficients_.families[LKS_CONSTRAINT_STRETCH];
         const DistanceArrays arrays = distance_arrays();
-        if (!solve_chain(coefficients_.chain, stretch, arrays, scratch_.chain.data())) {
+        if (!solve_chain(coefficients_.chain, stretch, arrays, *world_.kernels, scratch_.chain.data())) {
             sweep_stretch();
             sweep_stretch();
-            mend_chain(coefficients_.chain, stretch, arrays, scratch_.chain.data());
+            mend_chain(coefficients_.chain, stretch, arrays, *world_.kernels, scratch_.chain.data());
         }
     }
 
