@@ -1,4 +1,4 @@
-// The direction and the length of a segment of a rope.
+// Of a segment of a rope, by 64-bit products: fixed::normalise for the lengths that ropes have.
 #pragma once
 
 #include <bit>
