@@ -9,6 +9,7 @@
 #include "fixed_samples.h"
 #include "kernels/compiled_kernels.h"
 #include "kernels/kernels.h"
+#include "wide_kernels.h"
 
 using namespace lks;
 
@@ -37,13 +38,8 @@ std::int32_t direction(test::Random& random) {
 
 TEST_CASE("kernels: every instruction set finds the particles that may touch a collider") {
     const std::uint64_t problems = test::sample_count() / 200;
-    for (const lks_simd level :
-         {LKS_SIMD_SSE41, LKS_SIMD_AVX2, LKS_SIMD_AVX512, LKS_SIMD_NEON, LKS_SIMD_WASM}) {
-        const Kernels* kernels = find_kernels(level);
-        if (kernels == nullptr) {
-            continue;
-        }
-        INFO(std::string(simd_name(level)));
+    for (const Kernels* kernels : test::wide_kernels()) {
+        INFO(std::string(simd_name(kernels->level)));
         test::Random random(3);
         std::uint64_t different = 0;
         std::uint64_t near = 0;

@@ -10,21 +10,11 @@
 #include "fixed_samples.h"
 #include "kernels/compiled_kernels.h"
 #include "kernels/kernels.h"
+#include "wide_kernels.h"
 
 using namespace lks;
 
 namespace {
-
-std::vector<const Kernels*> wide_kernels() {
-    std::vector<const Kernels*> found;
-    for (const lks_simd level :
-         {LKS_SIMD_SSE41, LKS_SIMD_AVX2, LKS_SIMD_AVX512, LKS_SIMD_NEON, LKS_SIMD_WASM}) {
-        if (const Kernels* kernels = find_kernels(level)) {
-            found.push_back(kernels);
-        }
-    }
-    return found;
-}
 
 struct Kind {
     const char* name;
@@ -213,7 +203,7 @@ Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Pro
 TEST_CASE("kernels: every instruction set projects random and extreme edges as plain integers do") {
     // Some 943 constraints a problem, 9 kinds: 10^7 for each set, fewer where a build is slow.
     const auto problems = static_cast<int>(test::sample_count() / 8000);
-    for (const Kernels* kernels : wide_kernels()) {
+    for (const Kernels* kernels : test::wide_kernels()) {
         test::Random random(31);
         for (const Kind& kind : kinds) {
             INFO(std::string(simd_name(kernels->level)), ": ", std::string(kind.name));

@@ -86,12 +86,14 @@ private:
     Move b_;
 };
 
-// In all three directions.
-void add_point(const Contact& contact, const ContactPoint& point, const ContactPush& push, Pushes& pushes) {
+// Calls use(side of a, side of b, direction, push) for what a point pushes in all three directions.
+template <typename Use>
+void for_each_row(const Contact& contact, const ContactPoint& point, const ContactPush& push,
+                  const Use& use) {
     if (push.normal != 0) {
-        pushes.add(point.normal_a, point.normal_b, contact.normal, push.normal);
-        pushes.add(point.across_a[0], point.across_b[0], contact.across[0], push.across[0]);
-        pushes.add(point.across_a[1], point.across_b[1], contact.across[1], push.across[1]);
+        use(point.normal_a, point.normal_b, contact.normal, push.normal);
+        use(point.across_a[0], point.across_b[0], contact.across[0], push.across[0]);
+        use(point.across_a[1], point.across_b[1], contact.across[1], push.across[1]);
     }
 }
 
@@ -175,6 +177,34 @@ struct Levers {
 Levers levers_now(const Contact& contact, const ContactPoint& point, const Body& a, const Body& b) {
     return {fixed::rotate(a.rotation, point.core_a) + fixed::scale(contact.normal, contact.radius_a),
             fixed::rotate(b.rotation, point.core_b) - fixed::scale(contact.normal, contact.radius_b)};
+}
+
+// What all points need alike: one after the other they would turn a body that only has to be lifted.
+void project_middle(Contact& contact, ContactBodies bodies) {
+    std::int64_t sum = 0;
+    std::int64_t least = greatest_push;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        const ContactPoint& point = contact.points[i];
+        if (point.active) {
+            sum += gap_now(contact, point, bodies.a, bodies.b);
+            least = std::min(least, point.push.normal);
+        }
+    }
+    const auto n = static_cast<std::int64_t>(contact.active_count);
+    const std::int64_t wanted = -divide(sum / n, contact.middle_inverse) / n;
+    const std::int64_t more = std::clamp<std::int64_t>(wanted, -least, greatest_push);
+    if (more == 0) {
+        return;
+    }
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        ContactPoint& point = contact.points[i];
+        if (point.active) {
+            point.push.normal = std::min(point.push.normal + more, greatest_push);
+        }
+    }
+    Pushes pushes;
+    pushes.add(contact.middle_a, contact.middle_b, contact.normal, n * more);
+    pushes.apply_to(bodies);
 }
 
 } // namespace
@@ -295,17 +325,15 @@ void add_pushes(const Contact& contact, bool to_a, Move& move) {
     const int sign = to_a ? -1 : 1;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         const ContactPoint& point = contact.points[i];
-        if (!point.active || point.push.normal == 0) {
+        if (!point.active) {
             continue;
         }
-        const auto add = [&](const RowSide& a, const RowSide& b, const Direction& direction, std::int64_t p) {
-            if (p != 0) {
-                add_push(move, to_a ? a : b, fixed::scale(direction, p), p, sign);
-            }
-        };
-        add(point.normal_a, point.normal_b, contact.normal, point.push.normal);
-        add(point.across_a[0], point.across_b[0], contact.across[0], point.push.across[0]);
-        add(point.across_a[1], point.across_b[1], contact.across[1], point.push.across[1]);
+        for_each_row(contact, point, point.push,
+                     [&](const RowSide& a, const RowSide& b, const Direction& direction, std::int64_t p) {
+                         if (p != 0) {
+                             add_push(move, to_a ? a : b, fixed::scale(direction, p), p, sign);
+                         }
+                     });
     }
 }
 
@@ -324,36 +352,11 @@ void carry_more(Contact& contact, ContactBodies bodies, std::int32_t share) {
         take(point.push.normal, more.normal);
         take(point.push.across[0], more.across[0]);
         take(point.push.across[1], more.across[1]);
-        add_point(contact, point, more, pushes);
+        for_each_row(contact, point, more,
+                     [&](const RowSide& a, const RowSide& b, const Direction& direction, std::int64_t p) {
+                         pushes.add(a, b, direction, p);
+                     });
     }
-    pushes.apply_to(bodies);
-}
-
-// What all points need alike: one after the other they would turn a body that only has to be lifted.
-void project_middle(Contact& contact, ContactBodies bodies) {
-    std::int64_t sum = 0;
-    std::int64_t least = greatest_push;
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        const ContactPoint& point = contact.points[i];
-        if (point.active) {
-            sum += gap_now(contact, point, bodies.a, bodies.b);
-            least = std::min(least, point.push.normal);
-        }
-    }
-    const auto n = static_cast<std::int64_t>(contact.active_count);
-    const std::int64_t wanted = -divide(sum / n, contact.middle_inverse) / n;
-    const std::int64_t more = std::clamp<std::int64_t>(wanted, -least, greatest_push);
-    if (more == 0) {
-        return;
-    }
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        ContactPoint& point = contact.points[i];
-        if (point.active) {
-            point.push.normal = std::min(point.push.normal + more, greatest_push);
-        }
-    }
-    Pushes pushes;
-    pushes.add(contact.middle_a, contact.middle_b, contact.normal, n * more);
     pushes.apply_to(bodies);
 }
 

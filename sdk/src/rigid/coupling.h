@@ -20,5 +20,15 @@ AttachmentSides sides_of(lks_world& world, const Attachment& attachment);
 inline AttachmentSides sides_of(const lks_world& world, const Attachment& attachment) {
     return sides_of(const_cast<lks_world&>(world), attachment);
 }
+// Calls use(attachment, sides) for each attachment in use.
+template <typename Use>
+void for_each_attachment(lks_world& world, const Use& use) {
+    RigidScene& scene = world.rigid;
+    for (std::size_t i = 0; i < scene.attachments.size(); ++i) {
+        if (scene.attachment_slots[i].used) {
+            use(scene.attachments[i], sides_of(world, scene.attachments[i]));
+        }
+    }
+}
 
 } // namespace lks

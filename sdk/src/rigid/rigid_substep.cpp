@@ -54,15 +54,6 @@ ContactBodies RigidSubstep::bodies_of(const Contact& contact) {
     return {scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other)};
 }
 
-template <typename Use>
-void RigidSubstep::for_each_attachment(const Use& use) {
-    for (std::size_t i = 0; i < scene_.attachments.size(); ++i) {
-        if (scene_.attachment_slots[i].used) {
-            use(scene_.attachments[i], sides_of(world_, scene_.attachments[i]));
-        }
-    }
-}
-
 // Each by itself: use(contact).
 template <typename Use>
 void RigidSubstep::in_contacts(const Use& use) {
@@ -155,8 +146,9 @@ void RigidSubstep::predict(std::uint32_t substep) {
     for (const std::uint32_t index : scene_.coupled) {
         begin_object_substep(world_, coupled_object(world_, index), world_.scratch[0], substep);
     }
-    for_each_attachment(
-        [](Attachment& attachment, const AttachmentSides& sides) { lks::begin_substep(attachment, sides); });
+    for_each_attachment(world_, [](Attachment& attachment, const AttachmentSides& sides) {
+        lks::begin_substep(attachment, sides);
+    });
 }
 
 void RigidSubstep::carry_pushes_on() {
@@ -236,8 +228,9 @@ void RigidSubstep::iterate(std::uint32_t substep) {
 }
 
 void RigidSubstep::project_attachments() {
-    for_each_attachment(
-        [](Attachment& attachment, const AttachmentSides& sides) { lks::project(attachment, sides); });
+    for_each_attachment(world_, [](Attachment& attachment, const AttachmentSides& sides) {
+        lks::project(attachment, sides);
+    });
 }
 
 // Cloth and ropes against colliders and bodies, so that a substep ends with nothing inside either.
@@ -297,7 +290,8 @@ void RigidSubstep::finish() {
         for_each_part(scene_, figure, Part::tree,
                       [this](std::uint32_t i) { undo_articulation(scene_, scene_.trees[i]); });
     });
-    for_each_attachment([](Attachment& attachment, const AttachmentSides&) { finish_substep(attachment); });
+    for_each_attachment(world_,
+                        [](Attachment& attachment, const AttachmentSides&) { finish_substep(attachment); });
 }
 
 } // namespace lks

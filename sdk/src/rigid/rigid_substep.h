@@ -25,8 +25,6 @@ public:
 private:
     ContactBodies bodies_of(const Contact& contact);
     template <typename Use>
-    void for_each_attachment(const Use& use);
-    template <typename Use>
     void in_contacts(const Use& use);
     template <typename Use>
     void in_figures(const Use& use);

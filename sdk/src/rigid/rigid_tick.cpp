@@ -44,15 +44,6 @@ public:
 private:
     bool used(std::size_t index) const { return scene_.body_slots[index].used; }
 
-    template <typename Use>
-    void for_each_attachment(const Use& use) {
-        for (std::size_t i = 0; i < scene_.attachments.size(); ++i) {
-            if (scene_.attachment_slots[i].used) {
-                use(scene_.attachments[i], sides_of(world_, scene_.attachments[i]));
-            }
-        }
-    }
-
     bool is_at_work(std::size_t joint) const {
         const JointDescription& d = scene_.joints[joint].description;
         return scene_.joint_slots[joint].used &&
@@ -114,7 +105,7 @@ private:
         for (const std::uint32_t index : scene_.coupled) {
             begin_object_tick(world_, *world_.objects[index].object, world_.scratch[0]);
         }
-        for_each_attachment([this](Attachment& attachment, const AttachmentSides& sides) {
+        for_each_attachment(world_, [this](Attachment& attachment, const AttachmentSides& sides) {
             begin_tick(attachment, sides, world_.rate);
         });
     }
@@ -167,7 +158,7 @@ private:
             }
             body.struck = 0;
         }
-        for_each_attachment([](Attachment& attachment, const AttachmentSides& sides) {
+        for_each_attachment(world_, [](Attachment& attachment, const AttachmentSides& sides) {
             if (sides.body != nullptr && attachment.constants.movable != 0) {
                 sides.body->rest_ticks = 0;
             }

@@ -11,6 +11,7 @@
 #include "solver/pins.h"
 #include "solver/prediction.h"
 #include "solver/world.h"
+#include "threads/blocks.h"
 
 namespace lks {
 namespace {
@@ -225,21 +226,11 @@ private:
             body(0, 0, count);
             return 1;
         }
-        struct Context {
-            const Body& body;
-            std::uint32_t count;
-            std::uint32_t size;
-        };
         const std::uint32_t size = (count / wanted + widest_group) / widest_group * widest_group;
-        const std::uint32_t blocks = (count + size - 1) / size;
-        Context context{body, count, size};
-        const auto run = [](void* argument, std::uint32_t block, std::uint32_t) {
-            const Context& c = *static_cast<Context*>(argument);
-            const std::uint32_t first = block * c.size;
-            c.body(block, first, std::min(c.size, c.count - first));
-        };
-        team_->run({run, &context, blocks});
-        return blocks;
+        run_blocks(team_, count, size, [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+            body(first / size, first, end - first);
+        });
+        return (count + size - 1) / size;
     }
 
     static void grow(Bounds& bounds, std::int64_t reach) {

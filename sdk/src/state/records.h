@@ -14,17 +14,22 @@ namespace lks {
 template <typename Record>
 inline constexpr bool is_record = std::has_unique_object_representations_v<Record>;
 
+// On hosts where a record's memory is not its bytes.
+template <typename Io, typename Record>
+void each_by_fields(Io io, const Record* records, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        Record record = records[i];
+        record_fields(io, record);
+    }
+}
+
 template <typename Record>
 void write_records(ByteWriter& out, const Record* records, std::size_t count) {
     static_assert(is_record<Record>);
     if constexpr (host_is_little_endian) {
         out.block(records, count * sizeof(Record));
     } else {
-        Writing writing(out);
-        for (std::size_t i = 0; i < count; ++i) {
-            Record record = records[i];
-            record_fields(writing, record);
-        }
+        each_by_fields(Writing(out), records, count);
     }
 }
 
@@ -88,11 +93,7 @@ void hash_records(Hash& hash, const Record* records, std::size_t count) {
             hash.add_bytes(records, count * sizeof(Record));
         }
     } else {
-        Hashing hashing(hash);
-        for (std::size_t i = 0; i < count; ++i) {
-            Record record = records[i];
-            record_fields(hashing, record);
-        }
+        each_by_fields(Hashing(hash), records, count);
     }
 }
 

@@ -1,0 +1,21 @@
+// The kernels of this build and this processor beside plain integers.
+#pragma once
+
+#include <vector>
+
+#include "kernels/kernels.h"
+
+namespace lks::test {
+
+inline std::vector<const Kernels*> wide_kernels() {
+    std::vector<const Kernels*> found;
+    for (const lks_simd level :
+         {LKS_SIMD_SSE41, LKS_SIMD_AVX2, LKS_SIMD_AVX512, LKS_SIMD_NEON, LKS_SIMD_WASM}) {
+        if (const Kernels* kernels = find_kernels(level)) {
+            found.push_back(kernels);
+        }
+    }
+    return found;
+}
+
+} // namespace lks::test
