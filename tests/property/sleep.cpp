@@ -1,6 +1,7 @@
 // Who falls asleep, who does not, and what wakes them.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -85,6 +86,28 @@ TEST_CASE("who lies beside a sleeper falls asleep, too") {
     }
     world.step(600);
     CHECK(lks_world_awake_body_count(world) == 0);
+}
+
+TEST_CASE("a row of balls that sleep hands on what strikes the first one") {
+    lks_world_def weightless = world_def(60, 20);
+    weightless.gravity = {};
+    World world(weightless);
+    lks_body_def def = lks_default_body_def();
+    def.restitution = LKS_FIXED_ONE;
+    std::vector<lks_body_id> row;
+    for (int i = 0; i < 4; ++i) {
+        row.push_back(add_body(world, ball_shape(0.2), fixed(0.4001 * i, 0, 0), def));
+    }
+    world.step(240);
+    REQUIRE(lks_world_awake_body_count(world) == 0);
+    def.velocity = fixed(3, 0, 0);
+    const lks_body_id first = add_body(world, ball_shape(0.2), fixed(-1, 0, 0), def);
+    world.step(30);
+    CHECK(std::abs(state_of(world, row[3]).velocity.x - 3) < 0.03);
+    CHECK(std::abs(state_of(world, first).velocity.x) < 0.03);
+    for (int i = 0; i < 3; ++i) {
+        CHECK(std::abs(state_of(world, row[i]).velocity.x) < 0.03);
+    }
 }
 
 TEST_CASE("who loses what it rests on wakes and falls") {

@@ -73,6 +73,7 @@ struct Body : BodyState {
     bool known_asleep;
 
     // Of the tick and the substep at work.
+    bool slept;          // at the beginning of the tick
     std::int64_t struck; // asleep: how fast particles would have made it, World m/s
     bool touched;        // by a contact that pushed at the end of the tick
     fixed::Vec3 tick_position;
@@ -93,6 +94,8 @@ struct Body : BodyState {
     }
     // Awake, or kinematic and on its way.
     bool is_active() const { return is_dynamic() ? asleep == 0 : is_moving(); }
+    // In this tick: what is about to move may yet have no speed.
+    bool has_woken() const { return slept && is_awake(); }
     // What constraints may move it by: nothing while it sleeps.
     InverseMass effective_inverse_mass() const { return asleep != 0 ? InverseMass{0, 0} : inverse_mass; }
     // After `orientation` has changed.

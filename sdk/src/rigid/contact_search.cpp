@@ -404,7 +404,9 @@ private:
         }
         constexpr std::int64_t touching = (std::int64_t{1} << world_fraction_bits) / 1000;
         const std::int64_t closing = per_tick(-fixed::dot(manifold.normal, b.velocity - a.velocity));
-        const bool comes = (a.is_awake() || b.is_awake()) && closing > per_tick(gentle_speed);
+        // What has just been woken is about to be pushed: its neighbours are not to stand like walls.
+        const bool comes = (a.is_awake() || b.is_awake()) &&
+                           (closing > per_tick(gentle_speed) || a.has_woken() || b.has_woken());
         const bool carried = !a.is_dynamic() || !b.is_dynamic();
         for (std::uint32_t i = 0; (comes || carried) && i < manifold.count; ++i) {
             if (manifold.points[i].separation <= touching + std::max<std::int64_t>(closing, 0)) {

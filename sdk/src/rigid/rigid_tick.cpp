@@ -80,7 +80,8 @@ private:
             body.previous_rotation = narrow(body.orientation);
             body.tick_position = body.position;
             body.tick_orientation = body.orientation;
-            if (body.asleep != 0) {
+            body.slept = body.asleep != 0;
+            if (body.slept) {
                 continue;
             }
             body.follow_orientation();
