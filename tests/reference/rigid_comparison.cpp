@@ -49,6 +49,7 @@ RigidScene::RigidScene(const Settings& settings) : settings_(settings), world_(w
 std::size_t RigidScene::add(const lks_body_shape& shape, lks_body_def def) {
     def.never_sleeps = 1;
     def.filter.mask = 0;
+    REQUIRE(support::same(shape.transform.position, lks_vec3{})); // rigid_body() knows no other
     ids_.push_back(support::add_body(world_, shape, def.transform.position, def));
     model_.bodies.push_back(rigid_body(def, shape, support::mass_of(world_, ids_.back())));
     return ids_.size() - 1;

@@ -1,7 +1,5 @@
 #include "reference/rigid_model.h"
 
-#include <doctest/doctest.h>
-
 #include <cmath>
 
 namespace reference {
@@ -36,7 +34,6 @@ Vector inertia_of(const lks_body_shape& shape) {
 } // namespace
 
 RigidBody rigid_body(const lks_body_def& def, const lks_body_shape& shape, double mass) {
-    REQUIRE(support::same(shape.transform.position, lks_vec3{}));
     RigidBody body;
     body.position = support::metres(def.transform.position);
     body.orientation = rotation_of(def.transform.rotation);
