@@ -84,6 +84,20 @@ TEST_CASE("fixed: 64 x 64 -> 128 bit products are exact") {
     LKS_CHECK_TALLY(tally);
 }
 
+TEST_CASE("fixed: short dot products are the same by halves and by the machine's 128 bits") {
+    Tally tally;
+    for_pairs(7, [&](std::uint64_t a, std::uint64_t b) {
+        const std::int64_t sa = static_cast<std::int64_t>(a), sb = static_cast<std::int64_t>(b);
+        // Magnitudes that sum to less than 2^31.
+        const auto p = static_cast<std::int32_t>(sb >> 33), q = static_cast<std::int32_t>(sa >> 34);
+        const auto r = static_cast<std::int32_t>((sa ^ sb) >> 34);
+        tally.expect(dot_shift_30(p, 0, 0, sa, 0, 0) == dot_shift_30_halves(p, 0, 0, sa, 0, 0), a, b);
+        tally.expect(dot_shift_30(p, q, r, sa, sb, sa ^ sb) == dot_shift_30_halves(p, q, r, sa, sb, sa ^ sb),
+                     a, b);
+    });
+    LKS_CHECK_TALLY(tally);
+}
+
 TEST_CASE("fixed: 128-bit sums, differences, negation and order") {
     Tally tally;
     for_wide_pairs(2, [&](UInt128 a, UInt128 b) {

@@ -39,16 +39,11 @@ constexpr Direction operator-(Direction a) {
     return {-a.x, -a.y, -a.z};
 }
 
-// a * x + b * y + c * z over 2^30 to the nearest, half up, where (a, b, c) is a unit vector in Q2.30. Exact
-// before the rounding: each product is split at bit 32 of the long factor, and the upper part times 2^32 is a
-// whole number of units. A unit vector's components sum to at most sqrt(3) * 2^30, which keeps both sums
-// inside 64 bits. The result fits where |x|, |y|, |z| <= 2^62; beyond that it wraps.
+// a * x + b * y + c * z over 2^30 to the nearest, half up, where (a, b, c) is a unit vector in Q2.30, whose
+// components sum to at most sqrt(3) * 2^30. The result fits where |x|, |y|, |z| <= 2^62; beyond that it
+// wraps.
 constexpr std::int64_t dot_components(std::int32_t a, std::int32_t b, std::int32_t c, Vec3 v) {
-    const std::int64_t upper = a * (v.x >> 32) + b * (v.y >> 32) + c * (v.z >> 32);
-    const std::int64_t lower = a * static_cast<std::int64_t>(v.x & 0xffffffff) +
-                               b * static_cast<std::int64_t>(v.y & 0xffffffff) +
-                               c * static_cast<std::int64_t>(v.z & 0xffffffff);
-    return wrapping_add(wrapping_multiply(upper, 4), shift_right_rounded(lower, 30));
+    return dot_shift_30(a, b, c, v.x, v.y, v.z);
 }
 
 constexpr std::int64_t dot(Direction d, Vec3 v) {
@@ -77,9 +72,7 @@ constexpr Vec3 some_across(Direction d) {
 
 // a * s over 2^30 to the nearest, half up; |a| <= 2^30, so that it always fits.
 constexpr std::int64_t scale_component(std::int32_t a, std::int64_t s) {
-    const std::int64_t upper = a * (s >> 32);
-    const std::int64_t lower = a * static_cast<std::int64_t>(s & 0xffffffff);
-    return wrapping_add(wrapping_multiply(upper, 4), shift_right_rounded(lower, 30));
+    return dot_shift_30(a, 0, 0, s, 0, 0);
 }
 
 constexpr Vec3 scale(Direction d, std::int64_t s) {
