@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
+#include "kernels/force_inline.h"
 #include "rigid/block.h"
 #include "rigid/body_motion.h"
 
@@ -35,7 +36,7 @@ std::int64_t dot_32(const Vec3& a, const Vec3& b) {
     return plus(plus(lks::multiply_32(a.x, b.x), lks::multiply_32(a.y, b.y)), lks::multiply_32(a.z, b.z));
 }
 
-Vec3 cross_32(const Vec3& a, const Vec3& b) {
+LKS_FORCE_INLINE Vec3 cross_32(const Vec3& a, const Vec3& b) {
     const auto m = lks::multiply_32;
     return Vec3{m(a.y, b.z), m(a.z, b.x), m(a.x, b.y)} - Vec3{m(a.z, b.y), m(a.x, b.z), m(a.y, b.x)};
 }

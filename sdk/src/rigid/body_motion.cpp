@@ -116,13 +116,6 @@ std::int64_t greatest_speed(const Body& body, std::int64_t radius) {
     return fixed::saturating_add(sum_of_magnitudes(body.velocity), spin_speed(body, radius));
 }
 
-bool clamp_vector(Vec3& value, std::int64_t limit) {
-    const Vec3 before = value;
-    value = {std::clamp(value.x, -limit, limit), std::clamp(value.y, -limit, limit),
-             std::clamp(value.z, -limit, limit)};
-    return !(value == before);
-}
-
 BodyTick make_body_tick(const BodyDescription& description, const StepRate& rate, const Vec3& gravity) {
     const auto step = [&](std::int64_t g) {
         return divide_rounded(fixed::multiply_shift(g, description.gravity_factor, world_fraction_bits),

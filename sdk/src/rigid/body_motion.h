@@ -5,6 +5,8 @@
 // Cayley's map of hΩ_mid, which keeps angular momentum and energy (Austin, Krishnaprasad, Wang 1993).
 #pragma once
 
+#include <algorithm>
+
 #include "rigid/body.h"
 #include "solver/step_rate.h"
 
@@ -51,6 +53,11 @@ std::int64_t spin_speed(const Body& body, std::int64_t radius);
 std::int64_t greatest_speed(const Body& body, std::int64_t radius);
 
 // Each axis within ±limit; true where one was not.
-bool clamp_vector(fixed::Vec3& value, std::int64_t limit);
+inline bool clamp_vector(fixed::Vec3& value, std::int64_t limit) {
+    const fixed::Vec3 before = value;
+    value = {std::clamp(value.x, -limit, limit), std::clamp(value.y, -limit, limit),
+             std::clamp(value.z, -limit, limit)};
+    return !(value == before);
+}
 
 } // namespace lks

@@ -193,7 +193,7 @@ private:
                 other = key.other;
                 move = {};
             }
-            add_pushes(contact, scene_.figures[key.body_a] != figure(), move);
+            add_move(scene_.figures[key.body_a] != figure() ? contact.carried_a : contact.carried_b, move);
         });
         finish();
     }

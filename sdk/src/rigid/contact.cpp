@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
+#include "rigid/contact_points.h"
 
 namespace lks {
 namespace {
@@ -12,9 +13,6 @@ using fixed::Vec3;
 
 // Overlaps up to this stay: half a millimetre.
 constexpr std::int64_t allowed_overlap = (std::int64_t{1} << world_fraction_bits) / 2000;
-// Beyond a push of a quarter of a metre friction grows no more.
-constexpr std::int64_t greatest_gripping_push = std::int64_t{1} << (world_fraction_bits - 2);
-
 Vec3 cross(const Vec3& spin, const Vec3& lever) {
     // World · World, spins to 22 bits behind the point and levers to 24; a collider's lever may be very long.
     const auto m = [](std::int64_t a, std::int64_t b) {
@@ -28,83 +26,44 @@ Vec3 velocity_at(const Body& body, const Vec3& lever) {
     return body.velocity + cross(body.angular_velocity, lever);
 }
 
-// Two directions across n, and across each other.
-void span(const Direction& n, Direction (&across)[2]) {
+// n, and two directions across it and across each other.
+void span(const Direction& n, Direction (&directions)[3]) {
     fixed::NormalisedVector way{};
     fixed::normalise(fixed::some_across(n), way);
-    across[0] = way.direction;
-    const Vec3 second = fixed::cross(n, across[0]);
+    directions[normal_row] = n;
+    directions[1] = way.direction;
+    const Vec3 second = fixed::cross(n, way.direction);
     const auto part = [](std::int64_t c) {
         return static_cast<std::int32_t>(
             std::clamp<std::int64_t>(fixed::shift_right_rounded(c, 30), -direction_one, direction_one));
     };
-    across[1] = {part(second.x), part(second.y), part(second.z)};
+    directions[2] = {part(second.x), part(second.y), part(second.z)};
 }
 
-// From a point of a to a point of b, in world axes.
-Vec3 distance_now(const Body& a, const Vec3& on_a, const Body& b, const Vec3& on_b) {
-    return (b.position - a.position) + fixed::rotate(b.rotation, on_b) - fixed::rotate(a.rotation, on_a);
+// By an impulse along the normal.
+void accelerate(const Contact& contact, const ContactRows& rows, std::int64_t p,
+                const ContactBodies& bodies) {
+    accelerate(bodies.a, rows.a.rows[normal_row], contact.shares.a, rows.a.turn_shift, contact.normal(), p,
+               -1);
+    accelerate(bodies.b, rows.b.rows[normal_row], contact.shares.b, rows.b.turn_shift, contact.normal(), p,
+               1);
 }
 
-// How much the surfaces have parted along the normal in this substep, less what was open at its beginning.
-// Round surfaces part as their cores do, however they turn.
-std::int64_t gap_now(const Contact& contact, const ContactPoint& point, const Body& a, const Body& b) {
-    const Vec3 motion = distance_now(a, point.core_a, b, point.core_b) - point.core_start;
-    return fixed::dot(contact.normal, motion) + std::max<std::int64_t>(point.separation, 0);
-}
-
-Inverse make_row(const ContactBodies& bodies, const PairShares& shares, const Direction& direction,
-                 const Vec3& lever_a, const Vec3& lever_b, RowSide& side_a, RowSide& side_b) {
-    std::int64_t weight = 0;
-    side_a = push_side(bodies.a, shares.a, direction, lever_a, weight);
-    side_b = push_side(bodies.b, shares.b, direction, lever_b, weight);
-    return invert(weight);
-}
-
-// Pushes along rows' directions, b forward and a back, applied together.
-class Pushes {
-public:
-    void add(const RowSide& a, const RowSide& b, const Direction& direction, std::int64_t p) {
-        if (p != 0) {
-            const Vec3 along = fixed::scale(direction, p);
-            add_push(a_, a, along, p, -1);
-            add_push(b_, b, along, p, 1);
-        }
+// Nobody normalises behind it. What does not move may be others' too, at the same time.
+void undo(Body& body, const Move& move, std::int32_t share) {
+    if (share != 0) {
+        apply(body, move);
+        body.orientation = normalise(body.orientation);
     }
-    // What does not move may be others' too, at the same time.
-    void apply_to(ContactBodies bodies) const {
-        if (bodies.a.is_awake()) {
-            apply(bodies.a, a_);
-        }
-        if (bodies.b.is_awake()) {
-            apply(bodies.b, b_);
-        }
-    }
-
-private:
-    Move a_;
-    Move b_;
-};
-
-// Calls use(side of a, side of b, direction, push) for what a point pushes in all three directions.
-template <typename Use>
-void for_each_row(const Contact& contact, const ContactPoint& point, const ContactPush& push,
-                  const Use& use) {
-    if (push.normal != 0) {
-        use(point.normal_a, point.normal_b, contact.normal, push.normal);
-        use(point.across_a[0], point.across_b[0], contact.across[0], push.across[0]);
-        use(point.across_a[1], point.across_b[1], contact.across[1], push.across[1]);
-    }
-}
-
-std::int64_t grip(std::int64_t push, std::uint32_t friction) {
-    return (std::min(push, greatest_gripping_push) * std::int64_t{friction}) >> 18;
 }
 
 // What the points of a contact pushed before, to be handed on.
 class OldPushes {
 public:
-    void add(const ContactPush& push) { pushes_[count_++] = push; }
+    explicit OldPushes(std::span<const ContactPush> pushes)
+        : count_(static_cast<std::uint32_t>(pushes.size())) {
+        std::copy(pushes.begin(), pushes.end(), pushes_);
+    }
 
     bool take_feature(std::uint32_t feature, ContactPush& to) {
         for (std::uint32_t i = 0; i < count_; ++i) {
@@ -141,71 +100,8 @@ private:
     }
 
     ContactPush pushes_[greatest_point_count];
-    std::uint32_t count_ = 0;
+    std::uint32_t count_;
 };
-
-// Both rows across the normal at once, within the circle that the normal's push allows.
-void project_friction(Contact& contact, ContactPoint& point, ContactBodies bodies) {
-    const Vec3 motion = distance_now(bodies.a, point.material_a, bodies.b, point.material_b) - point.start;
-    std::int64_t wanted[2];
-    for (int i = 0; i < 2; ++i) {
-        wanted[i] =
-            point.push.across[i] - divide(fixed::dot(contact.across[i], motion), point.across_inverse[i]);
-    }
-    const std::int64_t most = grip(point.push.normal, contact.static_friction);
-    fixed::NormalisedVector size{};
-    if (fixed::normalise(Vec3{wanted[0], wanted[1], 0}, size) && size.length > most) {
-        const std::int64_t sliding = grip(point.push.normal, contact.dynamic_friction);
-        wanted[0] = fixed::scale_component(size.direction.x, sliding);
-        wanted[1] = fixed::scale_component(size.direction.y, sliding);
-    }
-    Pushes pushes;
-    for (int i = 0; i < 2; ++i) {
-        const std::int64_t more = wanted[i] - point.push.across[i];
-        point.push.across[i] = wanted[i];
-        pushes.add(point.across_a[i], point.across_b[i], contact.across[i], more);
-    }
-    pushes.apply_to(bodies);
-}
-
-// Where the surfaces meet now, from each centre of mass in world axes. A round surface has turned away under
-// that place: the material point there at the beginning would give the push an arm that it hasn't got.
-struct Levers {
-    Vec3 a, b;
-};
-
-Levers levers_now(const Contact& contact, const ContactPoint& point, const Body& a, const Body& b) {
-    return {fixed::rotate(a.rotation, point.core_a) + fixed::scale(contact.normal, contact.radius_a),
-            fixed::rotate(b.rotation, point.core_b) - fixed::scale(contact.normal, contact.radius_b)};
-}
-
-// What all points need alike: one after the other they would turn a body that only has to be lifted.
-void project_middle(Contact& contact, ContactBodies bodies) {
-    std::int64_t sum = 0;
-    std::int64_t least = greatest_push;
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        const ContactPoint& point = contact.points[i];
-        if (point.active) {
-            sum += gap_now(contact, point, bodies.a, bodies.b);
-            least = std::min(least, point.push.normal);
-        }
-    }
-    const auto n = static_cast<std::int64_t>(contact.active_count);
-    const std::int64_t wanted = -divide(sum / n, contact.middle_inverse) / n;
-    const std::int64_t more = std::clamp<std::int64_t>(wanted, -least, greatest_push);
-    if (more == 0) {
-        return;
-    }
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        ContactPoint& point = contact.points[i];
-        if (point.active) {
-            point.push.normal = std::min(point.push.normal + more, greatest_push);
-        }
-    }
-    Pushes pushes;
-    pushes.add(contact.middle_a, contact.middle_b, contact.normal, n * more);
-    pushes.apply_to(bodies);
-}
 
 } // namespace
 
@@ -216,14 +112,11 @@ std::uint32_t combined_friction(std::int64_t a, std::int64_t b) {
     return static_cast<std::uint32_t>(fixed::shift_right_rounded(root, world_fraction_bits - 18));
 }
 
-void take_manifold(Contact& contact, const Manifold& manifold, const Body& a, const Body& b) {
-    OldPushes old;
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        old.add(contact.points[i].push);
-    }
-    contact.normal = manifold.normal;
+void take_manifold(Contact& contact, std::span<const ContactPush> old_pushes, const Manifold& manifold,
+                   const Body& a, const Body& b) {
+    OldPushes old(old_pushes);
     contact.count = manifold.count;
-    span(contact.normal, contact.across);
+    span(manifold.normal, contact.directions);
     bool known[greatest_point_count];
     for (std::uint32_t i = 0; i < manifold.count; ++i) {
         const ManifoldPoint& from = manifold.points[i];
@@ -245,16 +138,17 @@ void begin_substep(Contact& contact, const Body& a, const Body& b) {
     const Vec3 between = b.position - a.position;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         ContactPoint& point = contact.points[i];
-        const Levers levers = levers_now(contact, point, a, b);
+        const Levers cores = cores_now(point, a, b);
+        const Levers levers = surfaces_of(contact, cores);
         point.material_a = fixed::rotate_transposed(a.rotation, levers.a);
         point.material_b = fixed::rotate_transposed(b.rotation, levers.b);
         point.start = distance_now(a, point.material_a, b, point.material_b);
-        point.core_start = distance_now(a, point.core_a, b, point.core_b);
-        point.separation = fixed::dot(contact.normal, between + levers.b - levers.a);
+        point.core_start = between + cores.b - cores.a;
+        point.separation = fixed::dot(contact.normal(), between + levers.b - levers.a);
         point.approach =
             contact.restitution == 0
                 ? 0
-                : -fixed::dot(contact.normal, velocity_at(b, levers.b) - velocity_at(a, levers.a));
+                : -fixed::dot(contact.normal(), velocity_at(b, levers.b) - velocity_at(a, levers.a));
         point.active = false;
     }
 }
@@ -264,126 +158,19 @@ bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach,
         return false;
     }
     const ContactPoint& point = contact.points[0];
-    const Levers levers = levers_now(contact, point, bodies.a, bodies.b);
+    const Levers levers = surfaces_of(contact, cores_now(point, bodies.a, bodies.b));
     const std::int64_t approach =
-        -fixed::dot(contact.normal, velocity_at(bodies.b, levers.b) - velocity_at(bodies.a, levers.a));
+        -fixed::dot(contact.normal(), velocity_at(bodies.b, levers.b) - velocity_at(bodies.a, levers.a));
     if (approach <= least_approach || point.separation > approach / rate.substeps_per_second) {
         return false;
     }
-    RowSide side_a{};
-    RowSide side_b{};
-    const Inverse inverse =
-        make_row(bodies, contact.shares, contact.normal, levers.a, levers.b, side_a, side_b);
+    ContactRows rows;
+    fill_rows(contact, bodies, levers, 1, rows);
     const std::int64_t back = fixed::multiply_shift(approach, contact.restitution, world_fraction_bits);
-    const std::int64_t p = divide(approach + back, inverse);
+    const std::int64_t p = divide(approach + back, rows.inverses[normal_row]);
     contact.given_speed = fixed::saturating_add(contact.given_speed, p);
-    accelerate(bodies.a, side_a, contact.normal, p, -1);
-    accelerate(bodies.b, side_b, contact.normal, p, 1);
+    accelerate(contact, rows, p, bodies);
     return true;
-}
-
-void make_rows(Contact& contact, ContactBodies bodies) {
-    Levers middle{{0, 0, 0}, {0, 0, 0}};
-    contact.active_count = 0;
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        ContactPoint& point = contact.points[i];
-        const std::int64_t gap = gap_now(contact, point, bodies.a, bodies.b);
-        // Another body may still push them together: what is further away than that is not looked at.
-        constexpr std::int64_t near = (std::int64_t{1} << world_fraction_bits) / 100;
-        point.active = point.push.normal != 0 || gap < near;
-        if (!point.active) {
-            point.push = {point.push.feature, 0, point.push.place, 0, {0, 0}};
-            continue;
-        }
-        const Levers levers = levers_now(contact, point, bodies.a, bodies.b);
-        middle = {middle.a + levers.a, middle.b + levers.b};
-        ++contact.active_count;
-        point.normal_inverse = make_row(bodies, contact.shares, contact.normal, levers.a, levers.b,
-                                        point.normal_a, point.normal_b);
-        for (int t = 0; t < 2; ++t) {
-            point.across_inverse[t] = make_row(bodies, contact.shares, contact.across[t], levers.a, levers.b,
-                                               point.across_a[t], point.across_b[t]);
-        }
-    }
-    const auto n = static_cast<std::int64_t>(contact.active_count);
-    if (n > 1) {
-        const auto share = [n](const Vec3& v) { return Vec3{v.x / n, v.y / n, v.z / n}; };
-        contact.middle_inverse = make_row(bodies, contact.shares, contact.normal, share(middle.a),
-                                          share(middle.b), contact.middle_a, contact.middle_b);
-    }
-}
-
-void push_again(const Contact& contact, Body& body, bool is_a) {
-    if (body.is_awake()) {
-        Move move;
-        add_pushes(contact, is_a, move);
-        apply(body, move);
-    }
-}
-
-void add_pushes(const Contact& contact, bool to_a, Move& move) {
-    const int sign = to_a ? -1 : 1;
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        const ContactPoint& point = contact.points[i];
-        if (!point.active) {
-            continue;
-        }
-        for_each_row(contact, point, point.push,
-                     [&](const RowSide& a, const RowSide& b, const Direction& direction, std::int64_t p) {
-                         if (p != 0) {
-                             add_push(move, to_a ? a : b, fixed::scale(direction, p), p, sign);
-                         }
-                     });
-    }
-}
-
-void carry_more(Contact& contact, ContactBodies bodies, std::int32_t share) {
-    Pushes pushes;
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        ContactPoint& point = contact.points[i];
-        if (!point.active || point.push.normal == 0) {
-            continue;
-        }
-        ContactPush more = point.push;
-        const auto take = [share](std::int64_t& total, std::int64_t& part) {
-            part = fixed::scale_component(share, part);
-            total += part;
-        };
-        take(point.push.normal, more.normal);
-        take(point.push.across[0], more.across[0]);
-        take(point.push.across[1], more.across[1]);
-        for_each_row(contact, point, more,
-                     [&](const RowSide& a, const RowSide& b, const Direction& direction, std::int64_t p) {
-                         pushes.add(a, b, direction, p);
-                     });
-    }
-    pushes.apply_to(bodies);
-}
-
-void project(Contact& contact, ContactBodies bodies, bool back) {
-    if (contact.active_count > 1) {
-        project_middle(contact, bodies);
-    }
-    for (std::uint32_t k = 0; k < contact.count; ++k) {
-        const std::uint32_t i = back ? contact.count - 1 - k : k;
-        ContactPoint& point = contact.points[i];
-        if (!point.active) {
-            continue;
-        }
-        const std::int64_t gap = gap_now(contact, point, bodies.a, bodies.b);
-        const std::int64_t wanted =
-            std::clamp<std::int64_t>(point.push.normal - divide(gap, point.normal_inverse), 0, greatest_push);
-        const std::int64_t more = wanted - point.push.normal;
-        point.push.normal = wanted;
-        if (more != 0) {
-            Pushes pushes;
-            pushes.add(point.normal_a, point.normal_b, contact.normal, more);
-            pushes.apply_to(bodies);
-        }
-        if (wanted != 0 || point.push.across[0] != 0 || point.push.across[1] != 0) {
-            project_friction(contact, point, bodies);
-        }
-    }
 }
 
 void add_up_pushes(Contact& contact, const MotionRate& rate) {
@@ -405,15 +192,13 @@ void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t le
         if (!point.active || point.push.normal == 0 || point.approach <= least_approach) {
             continue;
         }
-        const Levers levers = levers_now(contact, point, bodies.a, bodies.b);
+        const Levers levers = surfaces_of(contact, cores_now(point, bodies.a, bodies.b));
         const Vec3 apart = velocity_at(bodies.b, levers.b) - velocity_at(bodies.a, levers.a);
         const std::int64_t wanted =
             fixed::multiply_shift(point.approach, contact.restitution, world_fraction_bits);
-        const std::int64_t missing = wanted - fixed::dot(contact.normal, apart);
+        const std::int64_t missing = wanted - fixed::dot(contact.normal(), apart);
         if (missing > 0) {
-            const std::int64_t p = divide(missing, point.normal_inverse);
-            accelerate(bodies.a, point.normal_a, contact.normal, p, -1);
-            accelerate(bodies.b, point.normal_b, contact.normal, p, 1);
+            accelerate(contact, point.rows, divide(missing, point.rows.inverses[normal_row]), bodies);
         }
     }
 }
@@ -421,20 +206,27 @@ void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t le
 void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate& rate) {
     // At most three metres a second, and an eighth of what is left.
     const std::int64_t most = LKS_FIXED(3) / rate.substeps_per_second;
+    Move move_a;
+    Move move_b;
+    bool any = false;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         const ContactPoint& point = contact.points[i];
-        if (point.active && point.separation < -allowed_overlap) {
-            const std::int64_t depth = std::min((-point.separation - allowed_overlap) >> 3, most);
-            Pushes pushes;
-            pushes.add(point.normal_a, point.normal_b, contact.normal, divide(depth, point.normal_inverse));
-            pushes.apply_to(bodies);
-            // Nobody does so behind it.
-            for (Body* body : {&bodies.a, &bodies.b}) {
-                if (body->is_awake()) {
-                    body->orientation = normalise(body->orientation);
-                }
-            }
+        if (!point.active || point.separation >= -allowed_overlap) {
+            continue;
         }
+        const std::int64_t depth = std::min((-point.separation - allowed_overlap) >> 3, most);
+        const std::int64_t p = divide(depth, point.rows.inverses[normal_row]);
+        const Vec3 along = fixed::scale(contact.normal(), p);
+        const auto add = [&](Move& move, const ContactRowSide& side, std::int32_t share, int sign) {
+            add_push(move, side.rows[normal_row], share, side.turn_shift, along, p, sign);
+        };
+        add(move_a, point.rows.a, contact.shares.a, -1);
+        add(move_b, point.rows.b, contact.shares.b, 1);
+        any = true;
+    }
+    if (any) {
+        undo(bodies.a, move_a, contact.shares.a);
+        undo(bodies.b, move_b, contact.shares.b);
     }
 }
 

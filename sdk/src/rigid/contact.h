@@ -8,6 +8,8 @@
 // overlaps are undone at the end of the substep by moving bodies without giving them speed.
 #pragma once
 
+#include <span>
+
 #include "collide/manifold.h"
 #include "rigid/body_motion.h"
 #include "rigid/pair.h"
@@ -38,6 +40,18 @@ struct ContactPush {
     std::int64_t across[2];
 };
 
+// What pushes at one place do to two bodies: along the normal, and across it.
+inline constexpr int normal_row = 0;
+struct ContactRowSide {
+    std::int32_t turn_shift; // as UnitLever has them
+    std::int32_t arm_shift;
+    PushRow rows[3];
+};
+struct ContactRows {
+    ContactRowSide a, b;
+    Inverse inverses[3];
+};
+
 struct ContactPoint {
     ContactPush push;
     // In the frames of the bodies, World.
@@ -51,10 +65,11 @@ struct ContactPoint {
     std::int64_t separation;
     std::int64_t approach; // World m/s: how fast the surfaces closed
     bool active;
-    RowSide normal_a, normal_b;
-    RowSide across_a[2], across_b[2];
-    Inverse normal_inverse;
-    Inverse across_inverse[2];
+    ContactRows rows;
+    // Of an iteration: how far the surfaces have parted along the normal in this substep, less what was open
+    // at its beginning, and how far they have slid.
+    std::int64_t gap;
+    std::int64_t slip[2];
 };
 
 struct Contact {
@@ -64,17 +79,20 @@ struct Contact {
     std::int64_t radius_b;
     std::uint32_t static_friction; // 18 fraction bits
     std::uint32_t dynamic_friction;
-    std::int64_t restitution; // World
-    std::int64_t given_speed; // World m/s: what it gave along its normals in this tick, added up
-    bool fast;                // its points are looked for in every substep
-    fixed::Direction normal;  // from a to b
-    fixed::Direction across[2];
-    // Of the substep: a push at the middle of all active points, where they are several.
-    RowSide middle_a, middle_b;
-    Inverse middle_inverse;
+    std::int64_t restitution;       // World
+    std::int64_t given_speed;       // World m/s: what it gave along its normals in this tick, added up
+    bool fast;                      // its points are looked for in every substep
+    fixed::Direction directions[3]; // the normal, from a to b, and two across it
+    // Of the substep: a push along the normal at the middle of all active points, where they are several.
+    ContactRows middle;
+    std::int64_t middle_gap; // of an iteration
+    // What it carried on from the substep before has done to its bodies, where they are awake.
+    Move carried_a, carried_b;
     std::uint32_t active_count;
     std::uint32_t count;
-    ContactPoint points[greatest_point_count];
+    ContactPoint* points; // in RigidScene::contact_points
+
+    const fixed::Direction& normal() const { return directions[normal_row]; }
 };
 
 // What the search found of it.
@@ -91,25 +109,36 @@ struct ContactBodies {
     Body& a;
     Body& b;
 };
+// What contacts have done to them in the sweeps of an iteration.
+struct ContactMoves {
+    Move& a;
+    Move& b;
+};
 
-// Fills the points from a new manifold. Each takes over the push of the old point of the same feature, or
-// else of the nearest one that is left: where edges lie upon edges, features come and go.
-void take_manifold(Contact& contact, const Manifold& manifold, const Body& a, const Body& b);
+// How many points a contact needs room for.
+constexpr std::uint32_t point_room(bool fast, const Manifold& manifold) {
+    return fast ? greatest_point_count : manifold.count;
+}
+// Fills the points from a new manifold. Each takes over the old push of the same feature, or else of the
+// nearest place that is left: where edges lie upon edges, features come and go.
+void take_manifold(Contact& contact, std::span<const ContactPush> old_pushes, const Manifold& manifold,
+                   const Body& a, const Body& b);
 // Before the bodies are predicted.
 void begin_substep(Contact& contact, const Body& a, const Body& b);
 // An impact of two single points that give back speed, before the bodies are predicted: the impulse that
 // reverses their approach. True where there was one. Impacts of several points at once are left to
 // restore_speed: a box would take them one after the other and spin.
 bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach, const MotionRate& rate);
-// Once the bodies are predicted and joints have pushed: its rows. Then, `push_again`: what they pushed in the
-// substep before, on one of its bodies.
+// Once the bodies are predicted and joints have pushed: its rows. Then: what they pushed in the substep
+// before, on one of its bodies.
 void make_rows(Contact& contact, ContactBodies bodies);
-void push_again(const Contact& contact, Body& body, bool is_a);
-// What its pushes do to one of its bodies.
-void add_pushes(const Contact& contact, bool to_a, Move& move);
+void carry_on(Contact& contact, bool to_a, Move& move);
 // Adds a share of its pushes, 30 fraction bits, -1 .. 1.
 void carry_more(Contact& contact, ContactBodies bodies, std::int32_t share);
-void project(Contact& contact, ContactBodies bodies, bool back);
+// In each iteration: where the bodies are before contacts push them. They stay there in the sweeps forward
+// and back, to which their moves are small.
+void measure(Contact& contact, ContactBodies bodies);
+void project(Contact& contact, ContactMoves moves, bool back);
 // For events: what it pushed in this substep.
 void add_up_pushes(Contact& contact, const MotionRate& rate);
 // Once velocities are known.

@@ -100,6 +100,7 @@ public:
     bool run() {
         find_pairs();
         scene_.contacts.clear();
+        scene_.contact_points.clear();
         next_memory_ = 0;
         woken_ = false;
         if (team_ == nullptr || !find_by_team()) {
@@ -384,14 +385,16 @@ private:
         contact.dynamic_friction = combined_friction(own.dynamic_friction, other.dynamic_friction);
         contact.restitution = std::max(own.restitution, other.restitution);
         contact.fast = found.fast;
+        const std::size_t first_point = scene_.contact_points.size();
+        // Within its room.
+        static_cast<void>(scene_.contact_points.resize(first_point + point_room(found.fast, found.manifold)));
+        contact.points = scene_.contact_points.begin() + first_point;
+        std::span<const ContactPush> old_pushes;
         if (known) {
             const ContactMemory& memory = scene_.memories[next_memory_];
-            contact.count = memory.count;
-            for (std::uint32_t i = 0; i < memory.count; ++i) {
-                contact.points[i].push = memory.pushes[i];
-            }
+            old_pushes = {memory.pushes, memory.count};
         }
-        take_manifold(contact, found.manifold, scene_.bodies[key.body_a], body_b);
+        take_manifold(contact, old_pushes, found.manifold, scene_.bodies[key.body_a], body_b);
     }
 
     // Wakes a sleeping body that this one is about to touch. True: the contact is of no use (yet). What lies
@@ -503,12 +506,16 @@ void find_points_again(const lks_world& world, Contact& contact) {
     const std::int64_t radius_b = with_collider ? reach(piece_b) : scene.descriptions[index].radius;
     const std::int64_t motion = (greatest_speed(a, description.radius) + greatest_speed(b, radius_b)) / n;
     Manifold manifold;
-    manifold.normal = contact.normal;
+    manifold.normal = contact.normal();
     manifold.count = 0;
     if (!apart(piece_a, piece_b, motion + near_distance)) {
         collide(piece_a, piece_b, motion + near_distance, manifold);
     }
-    take_manifold(contact, manifold, a, b);
+    ContactPush old_pushes[greatest_point_count];
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        old_pushes[i] = contact.points[i].push;
+    }
+    take_manifold(contact, {old_pushes, contact.count}, manifold, a, b);
 }
 
 } // namespace lks

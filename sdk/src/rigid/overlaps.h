@@ -3,7 +3,7 @@
 // A hashed grid for each power of two of sizes: a box stands in the cell of its lowest corner, in the grid
 // whose cells are just larger than it. Whatever it overlaps at its own level begins at most one cell before
 // it, and so does, at a coarser level, whatever is larger. A pair is found once: by the smaller one, or by
-// the one with the lower index.
+// the one in the earlier cell.
 #pragma once
 
 #include <cstdint>
@@ -63,26 +63,30 @@ private:
     std::uint32_t bucket_of(const Cell& cell, std::uint32_t level) const;
     void sort_into_cells();
 
+    // At its own level a pair is found by the one in the earlier cell, or else by the lower index.
     template <typename Use>
     void search(std::uint32_t i, std::uint32_t level, const Use& use) {
         const Box& box = boxes_[i];
         const Cell first = cell_of(box.low, level);
         const Cell last = cell_of(box.high, level);
-        for (std::int64_t x = first.x - 1; x <= last.x; ++x) {
-            for (std::int64_t y = first.y - 1; y <= last.y; ++y) {
-                for (std::int64_t z = first.z - 1; z <= last.z; ++z) {
-                    search_cell(i, level, {x, y, z}, use);
+        const bool own = level == levels_[i];
+        for (std::int64_t x = own ? first.x : first.x - 1; x <= last.x; ++x) {
+            const bool own_x = own && x == first.x;
+            for (std::int64_t y = own_x ? first.y : first.y - 1; y <= last.y; ++y) {
+                const bool own_y = own_x && y == first.y;
+                for (std::int64_t z = own_y ? first.z : first.z - 1; z <= last.z; ++z) {
+                    search_cell(i, level, {x, y, z}, own_y && z == first.z, use);
                 }
             }
         }
     }
 
     template <typename Use>
-    void search_cell(std::uint32_t i, std::uint32_t level, const Cell& cell, const Use& use) {
+    void search_cell(std::uint32_t i, std::uint32_t level, const Cell& cell, bool own, const Use& use) {
         const std::uint32_t bucket = bucket_of(cell, level);
         for (std::uint32_t at = starts_[bucket]; at < starts_[bucket + 1]; ++at) {
             const std::uint32_t j = sorted_[at];
-            if (levels_[j] != level || (level == levels_[i] && j <= i) || !boxes_[i].overlaps(boxes_[j]) ||
+            if (!boxes_[i].overlaps(boxes_[j]) || levels_[j] != level || (own && j <= i) ||
                 !(cell_of(boxes_[j].low, level) == cell)) {
                 continue;
             }

@@ -55,33 +55,6 @@ Direction narrow_cross(const Direction& u, const Direction& v) {
     return {part(exact.x), part(exact.y), part(exact.z)};
 }
 
-struct UnitLever {
-    Direction lever; // in units of 2^unit m, below one half
-    std::int32_t weight_shift;
-    std::int32_t turn_shift;
-};
-
-// Contacts lie within the body's own unit; joints may be further out.
-UnitLever to_unit(const Body& body, const Vec3& lever) {
-    const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
-    const std::int64_t greatest = std::max({size(lever.x), size(lever.y), size(lever.z)});
-    int unit = body.scale;
-    while (greatest >> (world_fraction_bits + unit - 1) != 0) {
-        ++unit;
-    }
-    const int down = world_fraction_bits - 30 + unit; // to 30 fraction bits
-    const auto part = [down](std::int64_t c) {
-        return static_cast<std::int32_t>(down >= 0 ? c >> down : c * (std::int64_t{1} << -down));
-    };
-    const int longer = unit - body.scale;
-    const int wanted = body.inverse_shift + 2 * longer;
-    const int weight_shift = std::min(wanted, greatest_weight_shift);
-    // Ĵ is in 1/unit², the arm in units: by 2^longer more, and over 2^scale for radians; half of the angle.
-    return {{part(lever.x), part(lever.y), part(lever.z)},
-            weight_shift,
-            body.inverse_shift + longer - body.scale - (wanted - weight_shift) - 1};
-}
-
 // Of a turn about an axis: Ĵ is in 1/(2^scale m)².
 std::int32_t turning_shift(const Body& body, int reach) {
     return std::min(body.inverse_shift + 2 * (reach - body.scale), greatest_weight_shift);
@@ -95,11 +68,16 @@ std::int64_t turning_weight(std::int32_t share, const Direction& turn, const Dir
 }
 
 // What a push of p does to the body, 33 fraction bits.
-Vec3 half_turn_of(const RowSide& side, std::int64_t p, int sign) {
-    const std::int64_t own = sign * fixed::scale_component(side.share, p);
-    const int shift = side.turn_shift + half_turn_bits - world_fraction_bits;
+Vec3 half_turn_of(const Direction& turn, std::int32_t share, std::int32_t turn_shift, std::int64_t p,
+                  int sign) {
+    const std::int64_t own = sign * fixed::scale_component(share, p);
+    const int shift = turn_shift + half_turn_bits - world_fraction_bits;
     const auto part = [&](std::int32_t c) { return shifted(fixed::scale_component(c, own), shift); };
-    return {part(side.turn.x), part(side.turn.y), part(side.turn.z)};
+    return {part(turn.x), part(turn.y), part(turn.z)};
+}
+
+Vec3 half_turn_of(const RowSide& side, std::int64_t p, int sign) {
+    return half_turn_of(side.turn, side.share, side.turn_shift, p, sign);
 }
 
 // Δθ/2 = share · Ĵ · p · 2^shift.
@@ -109,6 +87,13 @@ Vec3 half_turn_of(const Body& body, std::int32_t share, int shift, const Vec3& p
         return shifted(sign * fixed::scale_component(share, c), shift + half_turn_bits - world_fraction_bits);
     };
     return {part(turned.x), part(turned.y), part(turned.z)};
+}
+
+// A quarter an axis.
+Vec3 clamped_turn(const Vec3& half_turn_33) {
+    const std::int64_t limit = std::int64_t{1} << (half_turn_bits - 2);
+    const auto part = [limit](std::int64_t c) { return std::clamp(c, -limit, limit); };
+    return {part(half_turn_33.x), part(half_turn_33.y), part(half_turn_33.z)};
 }
 
 } // namespace
@@ -141,19 +126,44 @@ std::int64_t divide(std::int64_t value, const Inverse& inverse) {
     return shifted(scaled, 24 - inverse.shift);
 }
 
+// Contacts lie within the body's own unit; joints may be further out.
+UnitLever to_unit(const Body& body, const Vec3& lever) {
+    const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
+    const std::int64_t greatest = std::max({size(lever.x), size(lever.y), size(lever.z)});
+    int unit = body.scale;
+    while (greatest >> (world_fraction_bits + unit - 1) != 0) {
+        ++unit;
+    }
+    const int down = world_fraction_bits - 30 + unit; // to 30 fraction bits
+    const auto part = [down](std::int64_t c) {
+        return static_cast<std::int32_t>(down >= 0 ? c >> down : c * (std::int64_t{1} << -down));
+    };
+    const int longer = unit - body.scale;
+    const int wanted = body.inverse_shift + 2 * longer;
+    const int weight_shift = std::min(wanted, greatest_weight_shift);
+    // Ĵ is in 1/unit², the arm in units: by 2^longer more, and over 2^scale for radians; half of the angle.
+    return {{part(lever.x), part(lever.y), part(lever.z)},
+            weight_shift,
+            body.inverse_shift + longer - body.scale - (wanted - weight_shift) - 1,
+            std::max(half_turn_bits + 30 - 1 - world_fraction_bits - unit, 0)};
+}
+
+PushRow push_row(const Body& body, std::int32_t share, const Direction& normal, const UnitLever& lever,
+                 std::int64_t& weight) {
+    PushRow row{};
+    row.arm = narrow_cross(lever.lever, normal);
+    row.turn = multiply_direction(body.world_inverse, row.arm);
+    weight += share + turning_weight(share, row.turn, row.arm, lever.weight_shift);
+    return row;
+}
+
 RowSide push_side(const Body& body, std::int32_t share, const Direction& normal, const Vec3& lever,
                   std::int64_t& weight) {
-    RowSide side{};
-    side.share = share;
     if (share == 0) {
-        return side;
+        return {};
     }
     const UnitLever unit = to_unit(body, lever);
-    const Direction arm = narrow_cross(unit.lever, normal);
-    side.turn = multiply_direction(body.world_inverse, arm);
-    side.turn_shift = unit.turn_shift;
-    weight += share + turning_weight(share, side.turn, arm, unit.weight_shift);
-    return side;
+    return {push_row(body, share, normal, unit, weight).turn, share, unit.turn_shift};
 }
 
 BlockSide block_side(const Body& body, std::int32_t share, const Vec3& lever, std::int64_t (&k)[6]) {
@@ -203,10 +213,7 @@ void add_turning_block(const Body& body, std::int32_t share, int reach, std::int
 }
 
 void turn_body(Body& body, const Vec3& half_turn_33) {
-    constexpr std::int64_t limit = std::int64_t{1} << (half_turn_bits - 2);
-    const std::int64_t x = std::clamp(half_turn_33.x, -limit, limit);
-    const std::int64_t y = std::clamp(half_turn_33.y, -limit, limit);
-    const std::int64_t z = std::clamp(half_turn_33.z, -limit, limit);
+    const auto [x, y, z] = clamped_turn(half_turn_33);
     if ((x | y | z) == 0) {
         return;
     }
@@ -253,17 +260,26 @@ void push(Body& body, const BlockSide& side, const Vec3& p, int sign) {
     }
 }
 
-void accelerate(Body& body, const RowSide& side, const Direction& normal, std::int64_t p, int sign) {
-    if (side.share == 0) {
+void accelerate(Body& body, const PushRow& row, std::int32_t share, std::int32_t turn_shift,
+                const Direction& normal, std::int64_t p, int sign) {
+    if (share == 0) {
         return;
     }
-    const std::int64_t own = sign * fixed::scale_component(side.share, p);
+    const std::int64_t own = sign * fixed::scale_component(share, p);
     body.velocity = body.velocity + fixed::scale(normal, own);
-    const auto part = [&](std::int32_t c) {
-        return shifted(fixed::scale_component(c, own), side.turn_shift + 1);
-    };
+    const auto part = [&](std::int32_t c) { return shifted(fixed::scale_component(c, own), turn_shift + 1); };
     body.angular_velocity =
-        body.angular_velocity + Vec3{part(side.turn.x), part(side.turn.y), part(side.turn.z)};
+        body.angular_velocity + Vec3{part(row.turn.x), part(row.turn.y), part(row.turn.z)};
+}
+
+void add_push(Move& move, const PushRow& row, std::int32_t share, std::int32_t turn_shift,
+              const Vec3& p_normal, std::int64_t p, int sign) {
+    if (share == 0) {
+        return;
+    }
+    const auto moved = [&](std::int64_t c) { return sign * fixed::scale_component(share, c); };
+    move.shift = move.shift + Vec3{moved(p_normal.x), moved(p_normal.y), moved(p_normal.z)};
+    move.half_turn = clamped_turn(move.half_turn + half_turn_of(row.turn, share, turn_shift, p, sign));
 }
 
 void add_push(Move& move, const RowSide& side, const Vec3& p_normal, std::int64_t p, int sign) {

@@ -50,7 +50,25 @@ struct RowSide {
     std::int32_t turn_shift; // Δθ/2 = share · p · turn · 2^turn_shift
 };
 
-// A push along `normal` at `lever` (World, from the centre of mass, world axes).
+// A lever (World, from the centre of mass, world axes) in units of 2^unit m, below one half, and what
+// products with it are shifted by.
+struct UnitLever {
+    fixed::Direction lever;
+    std::int32_t weight_shift;
+    std::int32_t turn_shift; // as in RowSide
+    std::int32_t arm_shift;  // World motion = arm · half turn · 2^-arm_shift
+};
+UnitLever to_unit(const Body& body, const fixed::Vec3& lever);
+
+// One body's part in one of several rows at the same lever.
+struct PushRow {
+    fixed::Direction arm;  // r̂×n
+    fixed::Direction turn; // Ĵ(r̂×n)
+};
+PushRow push_row(const Body& body, std::int32_t share, const fixed::Direction& normal, const UnitLever& lever,
+                 std::int64_t& weight);
+
+// A push along `normal` at `lever`.
 RowSide push_side(const Body& body, std::int32_t share, const fixed::Direction& normal,
                   const fixed::Vec3& lever, std::int64_t& weight);
 // A turn about `axis`; angles count in metres at a radius of 2^reach m, which both sides of a pair share.
@@ -75,6 +93,10 @@ struct Move {
     fixed::Vec3 half_turn{0, 0, 0}; // half_turn_fraction_bits
 };
 
+inline void add_move(const Move& more, Move& sum) {
+    sum = {sum.shift + more.shift, sum.half_turn + more.half_turn};
+}
+
 // Adds the body's part to K = Σ wᵢ·Ĵᵢ of turning pushes with that reach, entries as above.
 void add_turning_block(const Body& body, std::int32_t share, int reach, std::int64_t (&k)[6]);
 // By a push (World).
@@ -83,7 +105,18 @@ void push(Body& body, const BlockSide& side, const fixed::Vec3& p, int sign);
 // By a turning push (World) with the reach of turn_side.
 void turn(Body& body, std::int32_t share, int reach, const fixed::Vec3& p, int sign);
 
-// By a push p (World) along the row's normal, p_normal; `sign` is 1 or -1.
+// By a push p (World) along the row's normal, p_normal; `sign` is 1 or -1. Turns stay within a quarter an
+// axis.
+void add_push(Move& move, const PushRow& row, std::int32_t share, std::int32_t turn_shift,
+              const fixed::Vec3& p_normal, std::int64_t p, int sign);
+// How far the move has turned the point along the row's normal, World; to first order.
+inline std::int64_t turned_along(const PushRow& row, std::int32_t arm_shift, const Move& move) {
+    // 30 and 33 fraction bits; below 2^63 for turns of a quarter.
+    return fixed::shift_right_rounded(row.arm.x * move.half_turn.x + row.arm.y * move.half_turn.y +
+                                          row.arm.z * move.half_turn.z,
+                                      arm_shift);
+}
+// The same, not clamped.
 void add_push(Move& move, const RowSide& side, const fixed::Vec3& p_normal, std::int64_t p, int sign);
 void apply(Body& body, const Move& move);
 // Moves a body at once.
@@ -91,7 +124,8 @@ void push(Body& body, const RowSide& side, const fixed::Vec3& p_normal, std::int
 // Turns it only.
 void turn(Body& body, const RowSide& side, std::int64_t p, int sign);
 // The same for velocities: p in World m/s along `normal`.
-void accelerate(Body& body, const RowSide& side, const fixed::Direction& normal, std::int64_t p, int sign);
+void accelerate(Body& body, const PushRow& row, std::int32_t share, std::int32_t turn_shift,
+                const fixed::Direction& normal, std::int64_t p, int sign);
 // By a half turn in units of 2^-33, world axes, clamped to one quarter an axis.
 void turn_body(Body& body, const fixed::Vec3& half_turn_33);
 

@@ -10,12 +10,12 @@ RigidScene::RigidScene(const lks_allocator& allocator)
       descriptions(allocator), jointed(allocator), ticks(allocator), collider_bodies(allocator),
       pieces(allocator), piece_starts(allocator), travels(allocator), overlaps(allocator), boxed(allocator),
       pairs(allocator), found(allocator), found_order(allocator), contacts(allocator),
-      next_memories(allocator), islands(allocator), tree_roots(allocator), tree_links(allocator),
-      tree_bodies(allocator), tree_joints(allocator), articulated(allocator), trees(allocator),
-      figures(allocator), figure_parts(allocator), figure_ranges(allocator), shared_contacts(allocator),
-      figure_shares(allocator), figures_changed(allocator), island_rests(allocator), is_coupled(allocator),
-      coupled(allocator), object_pairs(allocator), held(allocator), loaded_bodies(allocator),
-      loaded_joints(allocator) {}
+      contact_points(allocator), contact_moves(allocator), next_memories(allocator), islands(allocator),
+      tree_roots(allocator), tree_links(allocator), tree_bodies(allocator), tree_joints(allocator),
+      articulated(allocator), trees(allocator), figures(allocator), figure_parts(allocator),
+      figure_ranges(allocator), shared_contacts(allocator), figure_shares(allocator),
+      figures_changed(allocator), island_rests(allocator), is_coupled(allocator), coupled(allocator),
+      object_pairs(allocator), held(allocator), loaded_bodies(allocator), loaded_joints(allocator) {}
 
 bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
     if (body_count == 0) {
@@ -29,8 +29,9 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         piece_starts.reserve(body_count) && travels.reserve(body_count) &&
         overlaps.reserve(static_cast<std::uint32_t>(boxes)) && boxed.reserve(boxes) &&
         pairs.reserve(pair_capacity(body_count)) && contacts.reserve(contact_capacity(body_count)) &&
-        found.reserve(contact_capacity(body_count)) && found_order.reserve(contact_capacity(body_count)) &&
-        memories.reserve(contact_capacity(body_count)) &&
+        contact_points.reserve(greatest_point_count * contact_capacity(body_count)) &&
+        contact_moves.reserve(body_count + 1) && found.reserve(contact_capacity(body_count)) &&
+        found_order.reserve(contact_capacity(body_count)) && memories.reserve(contact_capacity(body_count)) &&
         next_memories.reserve(contact_capacity(body_count)) && loaded_bodies.reserve(body_count) &&
         islands.reserve(body_count) && figures.reserve(body_count) && tree_roots.reserve(body_count) &&
         tree_bodies.reserve(body_count) && articulated.reserve(body_count) &&

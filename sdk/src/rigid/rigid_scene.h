@@ -59,6 +59,8 @@ struct RigidScene {
     Array<FoundContact> found;  // by a team, in any order
     Array<std::uint32_t> found_order;
     Array<Contact> contacts;
+    Array<ContactPoint> contact_points; // contact by contact
+    Array<Move> contact_moves;          // by body, of a contact sweep; and one that stays zero
     Array<ContactMemory> next_memories;
     Array<std::uint32_t> islands; // by body: towards the least index in its island
     // Of rigid/articulation.h.

@@ -176,23 +176,44 @@ void RigidSubstep::carry_pushes_on() {
 // Each body those that are its figure's: the other one of a shared contact may be at work.
 void RigidSubstep::push_contacts_again(const FigureRange& figure) {
     for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) {
-        const Contact& contact = scene_.contacts[i];
+        Contact& contact = scene_.contacts[i];
         const ContactBodies bodies = bodies_of(contact);
-        push_again(contact, bodies.a, true);
-        push_again(contact, bodies.b, false);
+        if (bodies.a.is_awake()) {
+            carry_on(contact, true, move_of(contact.key.body_a));
+        }
+        if (bodies.b.is_awake()) {
+            carry_on(contact, false, move_of(contact.key.other));
+        }
     });
     const std::uint32_t own = figure_of(scene_.figure_parts[figure.begin()]);
     for_each_part(scene_, figure, Part::shared_contact, [&](std::uint32_t i) {
-        const Contact& contact = scene_.contacts[i];
-        const ContactBodies bodies = bodies_of(contact);
+        Contact& contact = scene_.contacts[i];
         const bool is_a = scene_.figures[contact.key.body_a] == own;
-        push_again(contact, is_a ? bodies.a : bodies.b, is_a);
+        carry_on(contact, is_a, move_of(is_a ? contact.key.body_a : contact.key.other));
     });
+    apply_contact_moves(figure);
+}
+
+void RigidSubstep::measure_contact(std::uint32_t index) {
+    Contact& contact = scene_.contacts[index];
+    measure(contact, bodies_of(contact));
+}
+
+// Colliders have the one that stays zero.
+Move& RigidSubstep::move_of(std::uint32_t other) {
+    return scene_.contact_moves[other >= other_is_collider ? scene_.bodies.size() : other];
 }
 
 void RigidSubstep::project_contact(std::uint32_t index, bool back) {
     Contact& contact = scene_.contacts[index];
-    project(contact, bodies_of(contact), back);
+    project(contact, {move_of(contact.key.body_a), move_of(contact.key.other)}, back);
+}
+
+void RigidSubstep::apply_contact_moves(const FigureRange& figure) {
+    for_each_part(scene_, figure, Part::body, [this](std::uint32_t i) {
+        apply(scene_.bodies[i], scene_.contact_moves[i]);
+        scene_.contact_moves[i] = {};
+    });
 }
 
 void RigidSubstep::iterate(std::uint32_t substep) {
@@ -204,9 +225,16 @@ void RigidSubstep::iterate(std::uint32_t substep) {
     in_figures([this](const FigureRange& figure) {
         for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::project(joint, a, b); });
         solve_trees(figure);
+        for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) { measure_contact(i); });
         for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) { project_contact(i, false); });
     });
     const Array<std::uint32_t>& shared = scene_.shared_contacts;
+    run_blocks(team_, static_cast<std::uint32_t>(shared.size()), contacts_a_block,
+               [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                   for (std::uint32_t i = first; i < end; ++i) {
+                       measure_contact(shared[i]);
+                   }
+               });
     for (std::size_t i = 0; i < shared.size(); ++i) {
         project_contact(shared[i], false);
     }
@@ -216,6 +244,7 @@ void RigidSubstep::iterate(std::uint32_t substep) {
     in_figures([this](const FigureRange& figure) {
         for_each_part_back(scene_, figure, Part::contact,
                            [this](std::uint32_t i) { project_contact(i, true); });
+        apply_contact_moves(figure);
         for_each_part_back(scene_, figure, Part::joint, [this](std::uint32_t i) {
             Joint& joint = scene_.joints[i];
             lks::project(joint, scene_.bodies[joint.description.body_a],

@@ -37,7 +37,10 @@ private:
     void predict(std::uint32_t substep);
     void carry_pushes_on();
     void push_contacts_again(const FigureRange& figure);
+    void measure_contact(std::uint32_t index);
     void project_contact(std::uint32_t index, bool back);
+    Move& move_of(std::uint32_t other);
+    void apply_contact_moves(const FigureRange& figure);
     void iterate(std::uint32_t substep);
     void project_attachments();
     void collide_objects(std::uint32_t substep);

@@ -1,0 +1,44 @@
+// Where the two sides of a contact's points are.
+#pragma once
+
+#include <algorithm>
+
+#include "rigid/contact.h"
+
+namespace lks {
+
+// From a point of a to a point of b, in world axes.
+inline fixed::Vec3 distance_now(const Body& a, const fixed::Vec3& on_a, const Body& b,
+                                const fixed::Vec3& on_b) {
+    return (b.position - a.position) + fixed::rotate(b.rotation, on_b) - fixed::rotate(a.rotation, on_a);
+}
+
+// From each centre of mass, in world axes.
+struct Levers {
+    fixed::Vec3 a, b;
+};
+
+inline Levers cores_now(const ContactPoint& point, const Body& a, const Body& b) {
+    return {fixed::rotate(a.rotation, point.core_a), fixed::rotate(b.rotation, point.core_b)};
+}
+
+// Where the surfaces meet. A round surface has turned away under that place: the material point there at the
+// beginning would give the push an arm that it hasn't got.
+inline Levers surfaces_of(const Contact& contact, const Levers& cores) {
+    return {cores.a + fixed::scale(contact.normal(), contact.radius_a),
+            cores.b - fixed::scale(contact.normal(), contact.radius_b)};
+}
+
+// How much the surfaces have parted along the normal in this substep, less what was open at its beginning.
+// Round surfaces part as their cores do, however they turn.
+inline std::int64_t gap_of(const Contact& contact, const ContactPoint& point, const Levers& cores,
+                           const ContactBodies& bodies) {
+    const fixed::Vec3 motion = (bodies.b.position - bodies.a.position) + cores.b - cores.a - point.core_start;
+    return fixed::dot(contact.normal(), motion) + std::max<std::int64_t>(point.separation, 0);
+}
+
+// Rows at these levers along the first `count` directions.
+void fill_rows(const Contact& contact, const ContactBodies& bodies, const Levers& levers, int count,
+               ContactRows& rows);
+
+} // namespace lks
