@@ -108,14 +108,15 @@ constexpr int leading_zeros(UInt128 a) {
     return a.hi != 0 ? std::countl_zero(a.hi) : 64 + std::countl_zero(a.lo);
 }
 
-// Schoolbook on 32-bit halves. `middle` cannot overflow: it is at most 3 * (2^32 - 1).
+// Schoolbook on 32-bit halves. Neither sum overflows: each is at most (2^32 - 1)^2 + 2^32 - 1.
 constexpr UInt128 multiply_halves(std::uint64_t a, std::uint64_t b) {
     constexpr std::uint64_t low_half = 0xffffffffu;
     const std::uint64_t a0 = a & low_half, a1 = a >> 32;
     const std::uint64_t b0 = b & low_half, b1 = b >> 32;
-    const std::uint64_t p00 = a0 * b0, p01 = a0 * b1, p10 = a1 * b0, p11 = a1 * b1;
-    const std::uint64_t middle = (p00 >> 32) + (p01 & low_half) + (p10 & low_half);
-    return {p11 + (p01 >> 32) + (p10 >> 32) + (middle >> 32), (middle << 32) | (p00 & low_half)};
+    const std::uint64_t low = a0 * b0;
+    const std::uint64_t carried = a1 * b0 + (low >> 32);
+    const std::uint64_t middle = a0 * b1 + (carried & low_half);
+    return {a1 * b1 + (carried >> 32) + (middle >> 32), (middle << 32) | (low & low_half)};
 }
 
 // By the machine's own product where it has one (WebAssembly has a function of another library): the same in
@@ -130,12 +131,16 @@ constexpr UInt128 multiply_unsigned(std::uint64_t a, std::uint64_t b) {
 #endif
 }
 
-// A negative factor was read as itself plus 2^64; the correction takes the other factor off the high half.
+// The same with upper halves that have the factors' signs.
 constexpr Int128 multiply_signed_halves(std::int64_t a, std::int64_t b) {
-    const std::uint64_t ua = static_cast<std::uint64_t>(a), ub = static_cast<std::uint64_t>(b);
-    UInt128 product = multiply_halves(ua, ub);
-    product.hi -= (a < 0 ? ub : 0) + (b < 0 ? ua : 0);
-    return as_signed(product);
+    constexpr std::int64_t low_half = 0xffffffff;
+    const std::int64_t a0 = a & low_half, a1 = a >> 32;
+    const std::int64_t b0 = b & low_half, b1 = b >> 32;
+    const std::uint64_t low = static_cast<std::uint64_t>(a0) * static_cast<std::uint64_t>(b0);
+    const std::int64_t carried = a1 * b0 + static_cast<std::int64_t>(low >> 32);
+    const std::int64_t middle = a0 * b1 + (carried & low_half);
+    return {a1 * b1 + (carried >> 32) + (middle >> 32),
+            (static_cast<std::uint64_t>(middle) << 32) | (low & static_cast<std::uint64_t>(low_half))};
 }
 
 constexpr Int128 multiply_signed(std::int64_t a, std::int64_t b) {
