@@ -14,6 +14,8 @@ public:
     std::vector<double> joint_errors() const override;
     double energy() const override;
     lks_world* world() const { return world_; }
+    const std::vector<lks_body_id>& bodies() const { return bodies_; }
+    const std::vector<lks_joint_id>& joints() const { return joints_; }
 
 private:
     lks_world* world_ = nullptr;

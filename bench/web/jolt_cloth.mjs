@@ -1,21 +1,6 @@
 // The cloth in Jolt Physics: a soft body of edges without compliance, alone in its system and never asleep.
 import { edges, orders, pinned, vertices } from './cloth_shape.mjs';
-
-// A system with one layer, whose bodies don't collide. No workers: one thread, like the other contender.
-function createSystem(Jolt) {
-    const pairs = new Jolt.ObjectLayerPairFilterTable(1);
-    const layers = new Jolt.BroadPhaseLayerInterfaceTable(1, 1);
-    layers.MapObjectToBroadPhaseLayer(0, new Jolt.BroadPhaseLayer(0));
-    const settings = new Jolt.JoltSettings();
-    settings.mMaxWorkerThreads = 0;
-    settings.mObjectLayerPairFilter = pairs;
-    settings.mBroadPhaseLayerInterface = layers;
-    settings.mObjectVsBroadPhaseLayerFilter =
-        new Jolt.ObjectVsBroadPhaseLayerFilterTable(layers, 1, pairs, 1);
-    const system = new Jolt.JoltInterface(settings);
-    Jolt.destroy(settings);
-    return system;
-}
+import { createSystem } from './jolt_system.mjs';
 
 function createSharedSettings(Jolt, side, order) {
     const shared = new Jolt.SoftBodySharedSettings();
@@ -45,9 +30,7 @@ export class JoltCloth {
     constructor(Jolt, side, { iterations, collisionSteps, order }) {
         this.Jolt = Jolt;
         this.collisionSteps = collisionSteps;
-        this.system = createSystem(Jolt);
-        const gravity = new Jolt.Vec3(0, -9.81, 0);
-        this.system.GetPhysicsSystem().SetGravity(gravity);
+        this.system = createSystem(Jolt, 1, []);
         const shared = createSharedSettings(Jolt, side, order);
         this.constraints = shared.mEdgeConstraints.size();
 
@@ -61,7 +44,7 @@ export class JoltCloth {
         const bodies = this.system.GetPhysicsSystem().GetBodyInterface();
         this.body = bodies.CreateSoftBody(settings);
         bodies.AddBody(this.body.GetID(), Jolt.EActivation_Activate);
-        [gravity, origin, upright, settings].forEach((object) => Jolt.destroy(object));
+        [origin, upright, settings].forEach((object) => Jolt.destroy(object));
 
         const motion = Jolt.castObject(this.body.GetMotionProperties(), Jolt.SoftBodyMotionProperties);
         this.vertices = Array.from({ length: side * side }, (_, i) => motion.GetVertex(i).mPosition);

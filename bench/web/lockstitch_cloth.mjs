@@ -1,13 +1,11 @@
 // The cloth in Lockstitch, by the functions of hanging_cloth.c.
-import { createRequire } from 'node:module';
 import { edges, width } from './cloth_shape.mjs';
-
-const require = createRequire(import.meta.url);
+import { hexHash, loadModule, readNumbers } from './lockstitch_module.mjs';
 
 export class LockstitchCloth {
     // `path` is the module that emscripten made.
     static async create(path, side, { substeps, iterations }) {
-        return new LockstitchCloth(await require(path)(), side, substeps, iterations);
+        return new LockstitchCloth(await loadModule(path), side, substeps, iterations);
     }
 
     constructor(module, side, substeps, iterations) {
@@ -17,7 +15,6 @@ export class LockstitchCloth {
         if (this.cloth === 0) {
             throw new Error(`Lockstitch refused a cloth of ${side} x ${side}.`);
         }
-        this.buffer = module._malloc(this.count * 3 * Float64Array.BYTES_PER_ELEMENT);
         this.constraints = module._cloth_constraint_count(this.cloth);
         this.#demandSameEdges(edges(side));
     }
@@ -27,17 +24,15 @@ export class LockstitchCloth {
     }
 
     positions() {
-        this.module._cloth_positions(this.cloth, this.buffer);
-        return new Float64Array(this.module.HEAPU8.buffer, this.buffer, this.count * 3);
+        return readNumbers(this.module, this.count * 3,
+            (memory) => this.module._cloth_positions(this.cloth, memory));
     }
 
     hash() {
-        const halves = [this.module._cloth_hash_high(this.cloth), this.module._cloth_hash_low(this.cloth)];
-        return halves.map((half) => (half >>> 0).toString(16).padStart(8, '0')).join('');
+        return hexHash(this.module._cloth_hash_high(this.cloth), this.module._cloth_hash_low(this.cloth));
     }
 
     destroy() {
-        this.module._free(this.buffer);
         this.module._cloth_destroy(this.cloth);
     }
 

@@ -1,11 +1,19 @@
 #!/usr/bin/env bash
-# Compiles the SDK to WebAssembly, fetches Jolt Physics' package of WebAssembly into the build folder, and
-# compares both under node.
-# usage: bench/web/run.sh [--ticks N] [--side N] [--json]
+# Compiles the SDK to WebAssembly, fetches the peers' packages of WebAssembly into the build folder, and
+# compares them under node.
+# usage: bench/web/run.sh [cloth] [--ticks N] [--side N] [--json]
+#        bench/web/run.sh crowd [--ticks N] [--crowd block|pile] [--only TEXT] [--json]
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=$root/build/web
-jolt_version=1.1.0
+packages=(jolt-physics@1.1.0
+    @dimforge/rapier3d-simd-compat@0.20.0 @dimforge/rapier3d-deterministic-compat@0.21.0)
+
+race=cloth
+if [ "${1:-}" = cloth ] || [ "${1:-}" = crowd ]; then
+    race=$1
+    shift
+fi
 
 demand() {  # command, what it belongs to
     command -v "$1" >/dev/null && return
@@ -29,13 +37,18 @@ for target in wasm32 wasm32-simd128; do
     quietly cmake --build "$build/$target"
 done
 
-jolt=$build/node_modules/jolt-physics
-if ! grep -qs "\"version\": \"$jolt_version\"" "$jolt/package.json"; then
-    quietly npm install --prefix "$build" --no-save --no-audit --no-fund --ignore-scripts \
-        "jolt-physics@$jolt_version"
-    # Its workers never start under node: a promise's member is read where that of its value is meant.
+installed() {
+    local package
+    for package in "${packages[@]}"; do
+        grep -qs "\"version\": \"${package##*@}\"" "$build/node_modules/${package%@*}/package.json" ||
+            return 1
+    done
+}
+if ! installed; then
+    quietly npm install --prefix "$build" --no-save --no-audit --no-fund --ignore-scripts "${packages[@]}"
+    # Jolt's workers never start under node: a promise's member is read where that of its value is meant.
     threads='import("node:worker_threads")'
     sed -i "s/=await $threads\.workerData/=(await $threads).workerData/" \
-        "$jolt/dist/jolt-physics.multithread.wasm.js"
+        "$build/node_modules/jolt-physics/dist/jolt-physics.multithread.wasm.js"
 fi
-exec node "$root/bench/web/against_jolt.mjs" --build "$build" "$@"
+exec node "$root/bench/web/${race}_race.mjs" --build "$build" "$@"
