@@ -108,7 +108,7 @@ private:
         }
         btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape.get(), inertia);
         info.m_startWorldTransform = place;
-        info.m_friction = btScalar(0.5);
+        info.m_friction = std::sqrt(btScalar(0.5)); // it multiplies two bodies' coefficients
         shapes_.push_back(std::move(shape));
         bodies_.push_back(std::make_unique<btRigidBody>(info));
         bodies_.back()->setActivationState(DISABLE_DEACTIVATION);

@@ -84,6 +84,17 @@ TEST_CASE("fixed: 64 x 64 -> 128 bit products are exact") {
     LKS_CHECK_TALLY(tally);
 }
 
+TEST_CASE("fixed: products over 2^32 are rounded down, and the same by halves") {
+    Tally tally;
+    for_pairs(8, [&](std::uint64_t a, std::uint64_t b) {
+        const std::int64_t sa = static_cast<std::int64_t>(a), sb = static_cast<std::int64_t>(b);
+        const auto exact = static_cast<std::int64_t>((multiply(sa, sb) >> 32).lo);
+        tally.expect(multiply_shift_32(sa, sb) == exact, a, b);
+        tally.expect(multiply_shift_32_halves(sa, sb) == exact, a, b);
+    });
+    LKS_CHECK_TALLY(tally);
+}
+
 TEST_CASE("fixed: short dot products are the same by halves and by the machine's 128 bits") {
     Tally tally;
     for_pairs(7, [&](std::uint64_t a, std::uint64_t b) {

@@ -331,6 +331,22 @@ constexpr std::int64_t dot_shift_30(std::int32_t a, std::int32_t b, std::int32_t
 #endif
 }
 
+// a * b / 2^32, rounded down; wraps.
+constexpr std::int64_t multiply_shift_32_halves(std::int64_t a, std::int64_t b) {
+    const auto low = [](std::int64_t v) { return static_cast<std::uint64_t>(v) & 0xffffffffu; };
+    const auto high = [](std::int64_t v) { return static_cast<std::uint64_t>(v >> 32); };
+    return static_cast<std::int64_t>(((high(a) * high(b)) << 32) + high(a) * low(b) + low(a) * high(b) +
+                                     ((low(a) * low(b)) >> 32));
+}
+
+constexpr std::int64_t multiply_shift_32(std::int64_t a, std::int64_t b) {
+#if defined(__SIZEOF_INT128__) && !defined(__wasm__)
+    return static_cast<std::int64_t>((multiply_signed(a, b) >> 32).lo);
+#else
+    return multiply_shift_32_halves(a, b);
+#endif
+}
+
 // a * b / d to the nearest, ties away from zero, saturating. d = 0 saturates with the sign of the product; 0
 // / 0 is 0.
 constexpr std::int64_t multiply_divide(std::int64_t a, std::int64_t b, std::int64_t d) {

@@ -8,7 +8,7 @@ namespace lks {
 
 // a·b of 32 fraction bits and any, in the other's format; wraps.
 constexpr std::int64_t multiply_32(std::int64_t a, std::int64_t b) {
-    return static_cast<std::int64_t>((fixed::multiply_signed(a, b) >> 32).lo);
+    return fixed::multiply_shift_32(a, b);
 }
 
 // Of a symmetric 6 × 6 matrix: shift by shift, shift by turn (row by row), turn by turn.

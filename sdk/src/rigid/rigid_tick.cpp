@@ -129,6 +129,8 @@ private:
         for (Body& body : scene_.bodies) {
             if (!body.is_dynamic()) {
                 body.target_orientation = body.orientation;
+            } else if (body.is_awake()) {
+                body.follow_orientation(); // what undid errors has left it behind
             }
         }
         fall_asleep(world_);
