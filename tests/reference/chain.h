@@ -53,8 +53,12 @@ public:
         return change;
     }
 
+    // Whether the last movements left a segment off its length: it is to be solved again.
+    bool is_off() const { return off_; }
+
     // How the particles move by these changes.
-    std::vector<Vec> movements(const std::vector<Scalar>& change) const {
+    std::vector<Vec> movements(const std::vector<Scalar>& change) {
+        off_ = false;
         std::vector<Vec> moved(x_.size());
         for (std::size_t j = 0; j < change.size(); ++j) {
             moved[j] = moved[j] - directions_[j] * (w_[j] * change[j]);
@@ -78,6 +82,12 @@ public:
         const bool is_free = std::all_of(w_.begin(), w_.end(), [](Scalar w) { return w > 0; });
         for (std::size_t i = 0; i < x_.size(); ++i) {
             moved[i] = moved[i] + across[i] - (is_free ? momentum * (1 / mass) : Vec());
+        }
+        for (std::size_t j = 0; j < segments_.size(); ++j) {
+            const Vec apart = moved[j + 1] - moved[j];
+            const Scalar greatest = std::max({std::abs(apart.x), std::abs(apart.y), std::abs(apart.z)});
+            const Scalar along = std::abs(directions_[j].dot(across[j + 1] - across[j]));
+            off_ = off_ || greatest > segments_[j].rest / 32 || along > segments_[j].rest / 2048;
         }
         return moved;
     }
@@ -130,6 +140,7 @@ private:
     std::vector<Vec> x_;
     std::vector<Segment> segments_;
     std::vector<Vec> directions_;
+    bool off_ = false;
 };
 
 } // namespace reference

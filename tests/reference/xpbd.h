@@ -233,8 +233,12 @@ private:
         }
     }
 
-    // Particles stand in the order of the rope, as vertices do.
     void solve_chain() {
+        for (int solves = 1; solve_chain_once() && solves < 8; ++solves) {}
+    }
+
+    // Particles stand in the order of the rope, as vertices do. True: it is to be solved again.
+    bool solve_chain_once() {
         ChainSystem<Scalar, Vec> system(inverse_masses_, positions_);
         const std::vector<double> taut = tautness();
         for (std::size_t j = 0; j < chain_.size(); ++j) {
@@ -262,6 +266,7 @@ private:
         for (std::size_t p = 0; p < positions_.size(); ++p) {
             positions_[p] = positions_[p] + movements[p];
         }
+        return system.is_off();
     }
 
     // What rest lengths are multiplied by between two pins that are further apart, but for 2^-24, than the

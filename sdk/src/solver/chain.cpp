@@ -34,6 +34,11 @@ constexpr std::uint64_t greatest_rest = std::uint64_t{1} << 62;
 constexpr std::uint64_t least_slack = rest_one >> 24;
 // What a multiplier may be raised by for the upper half of its product.
 constexpr std::int64_t multiplier_room = std::int64_t{1} << (64 - chain_share_bits);
+// Where a segment's ends moved against each other by more than 2^-turn_shift of its length, or the second
+// pass changed its length by more than 2^-error_shift, the rope is solved again from where it is then.
+constexpr int turn_shift = 5;
+constexpr int error_shift = 11;
+constexpr int most_solves = 8;
 // Where a rope folds back by more than 176 degrees there is no "along".
 constexpr std::uint32_t least_tangent = direction_one / 1024;
 
@@ -80,12 +85,15 @@ public:
           count_(static_cast<std::uint32_t>(chain.segments.size())),
           movement_down_(chain.weight_exponent - chain.multiplier_exponent) {}
 
-    bool run() {
+    // `again`: after itself, in the same substep.
+    bool run(bool again) {
+        off_ = false;
         const bool simple = !torn_ && !eased_ && family_.damping_share == 0 && chain_.pinned_count < 2;
         if (!(simple ? eliminate<true>() : eliminate<false>())) {
             return false;
         }
-        const bool stiff = arrays_.multipliers != nullptr ? substitute<true>() : substitute<false>();
+        const bool stiff =
+            arrays_.multipliers != nullptr ? substitute<true>(again) : substitute<false>(again);
         if (!stiff) {
             each_movement([&](std::uint32_t i, const Vec3& v) { move(i, v); });
             return true;
@@ -99,6 +107,9 @@ public:
         }
         return true;
     }
+
+    // Tensions were implicit, and a segment was left off its length.
+    bool is_off() const { return off_; }
 
 private:
     Vec3 position(std::uint32_t index) const {
@@ -319,7 +330,7 @@ private:
     // Multipliers from the near end to the far one. Whether any tension is more than a chain stands by
     // itself.
     template <bool carried>
-    bool substitute() {
+    bool substitute(bool again) {
         const std::uint32_t count = count_;
         const ChainSegment* const segments = chain_.segments.data();
         ChainWork* const work = work_;
@@ -330,7 +341,9 @@ private:
             multiplier = bounded_multiplier(
                 w.own + fixed::multiply_signed(w.carried, multiplier * multiplier_room).hi);
             w.own = multiplier;
-            w.stiffness = stiffness<carried>(segments[j], multiplier);
+            w.tension =
+                carried || !again ? multiplier : bounded_multiplier(saturating_add(w.tension, multiplier));
+            w.stiffness = stiffness<carried>(segments[j], w.tension);
             stiff |= w.stiffness;
         }
         work[count].give = 0;
@@ -378,7 +391,7 @@ private:
         }
         const std::int64_t limit = substep_motion_limit >> -down;
         const std::int64_t unit = std::int64_t{1} << -down;
-        if (within(shares.x, limit) && within(shares.y, limit) && within(shares.z, limit)) {
+        if (within(shares, limit)) {
             return {shares.x * unit, shares.y * unit, shares.z * unit};
         }
         const auto moved = [limit, unit](std::int64_t s) { return std::clamp(s, -limit, limit) * unit; };
@@ -389,6 +402,10 @@ private:
     static bool within(std::int64_t value, std::int64_t limit) {
         return static_cast<std::uint64_t>(value) + static_cast<std::uint64_t>(limit) <=
                2 * static_cast<std::uint64_t>(limit);
+    }
+
+    static bool within(const Vec3& v, std::int64_t limit) {
+        return within(v.x, limit) && within(v.y, limit) && within(v.z, limit);
     }
 
     // Its products by shares and by directions fit.
@@ -475,6 +492,9 @@ private:
     void spread_and_move() {
         Vec3 mean{};
         Vec3 near{};
+        Vec3 near_movement{};
+        Vec3 near_across{};
+        bool off = false;
         std::uint32_t give = 0; // of the segment before
         bool stiff_before = false;
         for (std::uint32_t i = 0; i <= count_; ++i) {
@@ -485,8 +505,9 @@ private:
             }
             const bool stiff = w.stiffness != 0;
             Vec3 movement = w.movement;
+            Vec3 across{};
             if (stiff || stiff_before) {
-                const Vec3 across = across_rope(i, here - movement);
+                across = across_rope(i, here - movement);
                 movement = movement + across;
                 if constexpr (!pinned) {
                     const auto share = static_cast<std::int64_t>(chain_.particles[i].mass_share);
@@ -500,6 +521,11 @@ private:
             } else {
                 w.movement = movement;
             }
+            if (i > 0) {
+                off |= is_left_off(i - 1, movement - near_movement, across - near_across);
+            }
+            near_movement = movement;
+            near_across = across;
             near = here;
             give = w.give;
             stiff_before = stiff;
@@ -509,6 +535,23 @@ private:
                 move(i, work_[i].movement - mean);
             }
         }
+        off_ = off;
+    }
+
+    // By how its ends moved against each other, and by what of that the second pass changed.
+    bool is_left_off(std::uint32_t index, const Vec3& apart, const Vec3& changed) const {
+        const std::int64_t rest = chain_.segments[index].rest_length;
+        if (!within(apart, rest >> turn_shift)) {
+            return true;
+        }
+        const std::int64_t limit = rest >> error_shift;
+        if (within(changed, limit >> 1)) {
+            return false; // in any direction
+        }
+        const Direction& n = work_[index].direction;
+        return !within(direction_share(n.x, changed.x) + direction_share(n.y, changed.y) +
+                           direction_share(n.z, changed.z),
+                       limit);
     }
 
     Vec3 across_rope(std::uint32_t index, const Vec3& v) const {
@@ -549,6 +592,7 @@ private:
     ChainWork* work_;
     bool torn_;
     bool eased_; // multipliers so far count
+    bool off_ = false;
     std::uint64_t softness_;
     std::uint64_t taut_ = rest_one; // what rest lengths are multiplied by in the piece at hand
     std::uint32_t count_;
@@ -559,12 +603,17 @@ private:
 
 bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
                  const DistanceArrays& arrays, const Kernels& kernels, ChainWork* work) {
-    return ChainSolve(chain, family, arrays, kernels, work, false).run();
+    ChainSolve solve(chain, family, arrays, kernels, work, false);
+    if (!solve.run(false)) {
+        return false;
+    }
+    for (int solved = 1; solved < most_solves && solve.is_off() && solve.run(true); ++solved) {}
+    return true;
 }
 
 void mend_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
                 const DistanceArrays& arrays, const Kernels& kernels, ChainWork* work) {
-    static_cast<void>(ChainSolve(chain, family, arrays, kernels, work, true).run());
+    static_cast<void>(ChainSolve(chain, family, arrays, kernels, work, true).run(false));
 }
 
 } // namespace lks

@@ -25,6 +25,11 @@
 // means with weights in [0, 1], of movement with movement. Below 1/4 there is nothing to do, and it costs
 // nothing. In a rope without pins the mean of what it changed is taken off again: momentum is kept.
 //
+// The part across the rope is not quite across each of its segments, and long movements turn them: what that
+// leaves of errors would be speed in the next substep, which heavy particles give to light ones between them
+// until they are torn apart. Where it is more than 1/2048 of a segment the rope is solved again, at most
+// eight times in all, with the tensions of all solves.
+//
 // Both hold while segments turn by little. A rope that was blown apart, its segments at all angles and far
 // too long, a solve would blow further, for ever; sweeps are slow but bring it together from anywhere. So a
 // torn rope is swept first, and then solved for changes that are short against its segments.
@@ -44,6 +49,7 @@ struct ChainWork {
     std::uint32_t give;         // what the far end takes of the near one's movement, Unit
     std::int64_t carried;       // this times the multiplier before ...
     std::int64_t own;           // ... and this make the multiplier, which then replaces it
+    std::int64_t tension;       // the multipliers of this substep so far
     std::uint64_t stiffness;    // κ beyond what is stable by itself, Unit
     fixed::Vec3 movement;       // Coordinate
     fixed::Vec3 gathered;
