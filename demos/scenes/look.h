@@ -90,6 +90,12 @@ struct BodyLook {
     float marking = 0.0f;
 };
 
+// A bone of a ragdoll.
+struct BoneLook {
+    Rgb colour;
+    float joint_radius = 0.0f; // metres; of the ball that is drawn where it turns in its parent, 0: none
+};
+
 // Relative to the scene's offset, metres.
 struct CameraLook {
     float eye[3] = {0.0f, 1.5f, 6.0f};

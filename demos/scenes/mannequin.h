@@ -12,24 +12,29 @@ struct Mannequin {
     Mannequin() { lks_humanoid(bones, shapes); }
 };
 
-struct MannequinColours {
-    Rgb colour[LKS_HUMANOID_BONES];
+struct MannequinLook {
+    BoneLook bones[LKS_HUMANOID_BONES];
 };
 
-inline MannequinColours mannequin_colours(Rgb shirt, Rgb trousers) {
+inline MannequinLook mannequin_look(Rgb shirt, Rgb trousers) {
     const Rgb skin = rgb(0xd9a679);
     const Rgb shoe = rgb(0x3d3632);
-    MannequinColours out;
-    for (Rgb& colour : out.colour) {
-        colour = skin;
-    }
-    out.colour[LKS_HUMANOID_CHEST] = shirt;
-    out.colour[LKS_HUMANOID_UPPER_ARM_LEFT] = out.colour[LKS_HUMANOID_UPPER_ARM_RIGHT] = shirt;
-    out.colour[LKS_HUMANOID_PELVIS] = trousers;
-    out.colour[LKS_HUMANOID_UPPER_LEG_LEFT] = out.colour[LKS_HUMANOID_UPPER_LEG_RIGHT] = trousers;
-    out.colour[LKS_HUMANOID_LOWER_LEG_LEFT] = out.colour[LKS_HUMANOID_LOWER_LEG_RIGHT] = trousers;
-    out.colour[LKS_HUMANOID_FOOT_LEFT] = out.colour[LKS_HUMANOID_FOOT_RIGHT] = shoe;
-    return out;
+    // Its limbs end where they turn, and its head stands free above its chest: balls close what is between.
+    return {{{trousers, 0.0f},
+             {shirt, 0.088f},
+             {skin, 0.052f},
+             {shirt, 0.055f},
+             {skin, 0.043f},
+             {skin, 0.037f},
+             {shirt, 0.055f},
+             {skin, 0.043f},
+             {skin, 0.037f},
+             {trousers, 0.075f},
+             {trousers, 0.056f},
+             {shoe, 0.042f},
+             {trousers, 0.075f},
+             {trousers, 0.056f},
+             {shoe, 0.042f}}};
 }
 
 } // namespace lks_demo

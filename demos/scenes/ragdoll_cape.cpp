@@ -35,8 +35,8 @@ private:
         def_.bone_count = LKS_HUMANOID_BONES;
         def_.transform.position = millimetres(radius, 4, 0);
         def_.group = -1;
-        const MannequinColours colours = mannequin_colours(rgb(0x3c4a63), rgb(0x5c5148));
-        return add_ragdoll("mannequin", def_, colours.colour, bodies_, joints_);
+        const MannequinLook look = mannequin_look(rgb(0x3c4a63), rgb(0x5c5148));
+        return add_ragdoll("mannequin", def_, look.bones, bodies_, joints_);
     }
 
     // Hangs from the shoulders down the back; its upper edge is held along a line behind them.

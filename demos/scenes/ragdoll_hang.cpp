@@ -53,12 +53,12 @@ private:
         for (const std::uint32_t upper : {LKS_HUMANOID_UPPER_ARM_LEFT, LKS_HUMANOID_UPPER_ARM_RIGHT}) {
             mannequin.bones[upper].swing_limit = LKS_FIXED(170); // reaches overhead
         }
-        const MannequinColours colours = mannequin_colours(rgb(0xcf9a3e), rgb(0x33497f));
+        const MannequinLook look = mannequin_look(rgb(0xcf9a3e), rgb(0x33497f));
         lks_ragdoll_def def = lks_default_ragdoll_def();
         def.bones = mannequin.bones;
         def.bone_count = LKS_HUMANOID_BONES;
         def.transform.position = millimetres(0, lift, 0);
-        if (!add_ragdoll("mannequin", def, colours.colour, bodies_)) {
+        if (!add_ragdoll("mannequin", def, look.bones, bodies_)) {
             return false;
         }
         lks_transform pose[LKS_HUMANOID_BONES];

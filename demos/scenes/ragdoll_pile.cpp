@@ -58,8 +58,8 @@ private:
             const lks_rotation lying = turn_about({LKS_FIXED_ONE, 0, 0}, LKS_FIXED_RATIO(1, 4));
             const lks_rotation turned = turn_about({0, LKS_FIXED_ONE, 0}, across ? LKS_FIXED_RATIO(1, 4) : 0);
             def.transform.rotation = product(turned, lying);
-            const MannequinColours colours = mannequin_colours(shirts[i % 5], trousers[i % 3]);
-            good = add_ragdoll("mannequin", def, colours.colour);
+            const MannequinLook look = mannequin_look(shirts[i % 5], trousers[i % 3]);
+            good = add_ragdoll("mannequin", def, look.bones);
         }
         return good;
     }

@@ -42,7 +42,7 @@ private:
 
     bool add_mannequin() {
         const Mannequin mannequin;
-        const MannequinColours colours = mannequin_colours(rgb(0x2f7b7d), rgb(0x3c4a63));
+        const MannequinLook look = mannequin_look(rgb(0x2f7b7d), rgb(0x3c4a63));
         lks_ragdoll_def def = lks_default_ragdoll_def();
         def.bones = mannequin.bones;
         def.bone_count = LKS_HUMANOID_BONES;
@@ -50,7 +50,7 @@ private:
         def.transform.rotation = turn_about({0, LKS_FIXED_ONE, 0}, LKS_FIXED_RATIO(1, 5));
         def.velocity = millimetres(900, 0, 100);
         lks_body_id ids[LKS_HUMANOID_BONES];
-        if (!add_ragdoll("mannequin", def, colours.colour, ids)) {
+        if (!add_ragdoll("mannequin", def, look.bones, ids)) {
             return false;
         }
         // A push between the shoulders.

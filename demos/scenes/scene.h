@@ -82,8 +82,8 @@ protected:
     bool add_ground(Rgb colour);
     bool add_collider(lks_collider_def def, const ColliderLook& look, lks_collider_id* id = nullptr);
     bool add_body(const std::string& name, lks_body_def def, Rgb colour, lks_body_id* id = nullptr);
-    // Places are those of `def`; a colour for each bone. `ids` has room for them, or is null.
-    bool add_ragdoll(const std::string& name, lks_ragdoll_def def, const Rgb* colours,
+    // Places are those of `def`; a look for each bone. `ids` has room for them, or is null.
+    bool add_ragdoll(const std::string& name, lks_ragdoll_def def, const BoneLook* looks,
                      lks_body_id* ids = nullptr, lks_joint_id* joints = nullptr);
     bool create_cloth(lks_cloth_def def, const lks_asset*& asset);
     bool create_rope(lks_rope_def def, const lks_asset*& asset);
@@ -106,6 +106,7 @@ private:
     ObjectLook& look_of(ObjectKind kind);
     void look_as_body(const std::string& name, lks_body_id id, const lks_body_def& def, double scale,
                       Rgb colour);
+    void look_as_joint(const lks_bone& bone, double scale, float radius);
 
     const SceneInfo& info_;
     SceneOptions options_;

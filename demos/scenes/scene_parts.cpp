@@ -68,6 +68,22 @@ void Scene::look_as_body(const std::string& name, lks_body_id id, const lks_body
     bodies_.push_back(look);
 }
 
+// Of the body that was added last, whose bone is not turned in its rest pose.
+void Scene::look_as_joint(const lks_bone& bone, double scale, float radius) {
+    if (radius == 0.0f) {
+        return;
+    }
+    const lks_vec3& joint = bone.joint_frame.position;
+    const lks_vec3& body = bone.body.transform.position;
+    const lks_fixed away[3] = {joint.x - body.x, joint.y - body.y, joint.z - body.z};
+    BodyShapeLook ball;
+    for (int axis = 0; axis < 3; ++axis) {
+        ball.position[axis] = static_cast<float>(lks_fixed_to_double(away[axis]) * scale);
+    }
+    ball.radius = radius * static_cast<float>(scale);
+    bodies_.back().shapes.push_back(ball);
+}
+
 bool Scene::add_body(const std::string& name, lks_body_def def, Rgb colour, lks_body_id* id) {
     def.transform.position = place(def.transform.position);
     lks_body_id added{};
@@ -81,7 +97,7 @@ bool Scene::add_body(const std::string& name, lks_body_def def, Rgb colour, lks_
     return true;
 }
 
-bool Scene::add_ragdoll(const std::string& name, lks_ragdoll_def def, const Rgb* colours, lks_body_id* ids,
+bool Scene::add_ragdoll(const std::string& name, lks_ragdoll_def def, const BoneLook* looks, lks_body_id* ids,
                         lks_joint_id* joints) {
     def.transform.position = place(def.transform.position);
     std::vector<lks_body_id> added(def.bone_count);
@@ -89,7 +105,8 @@ bool Scene::add_ragdoll(const std::string& name, lks_ragdoll_def def, const Rgb*
         return false;
     }
     for (std::uint32_t i = 0; i < def.bone_count; ++i) {
-        look_as_body(name, added[i], def.bones[i].body, lks_fixed_to_double(def.scale), colours[i]);
+        look_as_body(name, added[i], def.bones[i].body, lks_fixed_to_double(def.scale), looks[i].colour);
+        look_as_joint(def.bones[i], lks_fixed_to_double(def.scale), looks[i].joint_radius);
         if (ids != nullptr) {
             ids[i] = added[i];
         }

@@ -46,19 +46,19 @@ private:
         if (lks_spider(bones_, shapes_) != LKS_OK) {
             return false;
         }
-        Rgb colours[LKS_SPIDER_BONES];
+        BoneLook looks[LKS_SPIDER_BONES];
         for (std::uint32_t i = 0; i < LKS_SPIDER_BONES; ++i) {
-            colours[i] = i % 2 == 0 ? rgb(0x4a3328) : rgb(0x7a4a2e);
+            looks[i].colour = i % 2 == 0 ? rgb(0x4a3328) : rgb(0x7a4a2e);
             bones_[i].body.static_friction = LKS_FIXED(1);
             bones_[i].body.dynamic_friction = LKS_FIXED_RATIO(8, 10);
         }
-        colours[LKS_SPIDER_THORAX] = rgb(0x3a2a24);
-        colours[LKS_SPIDER_ABDOMEN] = rgb(0x8a3b2c);
+        looks[LKS_SPIDER_THORAX].colour = rgb(0x3a2a24);
+        looks[LKS_SPIDER_ABDOMEN].colour = rgb(0x8a3b2c);
         def_ = lks_default_ragdoll_def();
         def_.bones = bones_;
         def_.bone_count = LKS_SPIDER_BONES;
         def_.transform.position = millimetres(0, 70, -550);
-        return add_ragdoll("spider", def_, colours, nullptr, joints_);
+        return add_ragdoll("spider", def_, looks, nullptr, joints_);
     }
 
     // Legs of one group are in the air while the others push back.
