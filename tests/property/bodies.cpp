@@ -12,17 +12,6 @@ namespace {
 
 constexpr double g = 9.81;
 
-// World axes from a body's.
-Vector rotate(const lks_rotation& q, const Vector& v) {
-    const Vector u = Vector{double(q.x), double(q.y), double(q.z)} * 0x1p-30;
-    const double w = q.w * 0x1p-30;
-    const auto cross = [](const Vector& a, const Vector& b) {
-        return Vector{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-    };
-    const Vector t = cross(u, v) * 2;
-    return v + t * w + cross(u, t);
-}
-
 // Angular momentum per kilogram of a box of these half extents, in world axes.
 Vector momentum(const BodyState& body, const Vector& e) {
     const lks_rotation back{-body.rotation.x, -body.rotation.y, -body.rotation.z, body.rotation.w};
@@ -150,21 +139,26 @@ TEST_CASE("a capsule rolls on at the speed it has") {
     CHECK(std::abs(state_of(world, body).position.x - 20) < 0.02);
 }
 
-TEST_CASE("ten boxes upon each other stand for a minute") {
+TEST_CASE("ten boxes upon each other stand for an hour") {
     World world(world_def(60, 8));
     add_ground(world);
     lks_body_id boxes[10];
     for (int i = 0; i < 10; ++i) {
         boxes[i] = add_body(world, box_shape(0.5, 0.5, 0.5), fixed(0, 0.5 + i, 0));
     }
-    world.step(3600);
-    const BodyState top = state_of(world, boxes[9]);
-    CHECK(std::abs(top.position.x) < 5e-5);
-    CHECK(std::abs(top.position.z) < 5e-5);
-    CHECK(top.position.y > 9.5 - 5e-3);
-    CHECK(energy_of(world) < 1e-3);
+    // They settle by what a contact allows, a tenth of a millimetre each, and then stand.
+    world.step(60);
+    Vector settled[10];
     for (int i = 0; i < 10; ++i) {
-        CHECK(state_of(world, boxes[i]).position.y - (0.5 + i) > -5e-3);
+        settled[i] = state_of(world, boxes[i]).position;
+        CHECK(std::abs(settled[i].y - (0.5 + i)) < 1.5e-3);
+    }
+    world.step(216000);
+    CHECK(energy_of(world) == 0);
+    for (int i = 0; i < 10; ++i) {
+        const Vector now = state_of(world, boxes[i]).position;
+        CHECK(std::hypot(now.x, now.z) < 5e-5);
+        CHECK((now - settled[i]).length() < 1e-4);
     }
 }
 
