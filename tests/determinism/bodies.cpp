@@ -2,6 +2,8 @@
 // bit.
 #include <doctest/doctest.h>
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "support/bodies.h"
@@ -15,8 +17,8 @@ namespace {
 // worth of links: contacts and joints of every kind.
 class Playground {
 public:
-    explicit Playground(const lks_vec3& offset = {}, std::uint32_t workers = 1)
-        : world(settings(workers)), offset_(offset) {
+    explicit Playground(const lks_vec3& offset = {}, std::uint32_t workers = 1, lks_simd simd = LKS_SIMD_AUTO)
+        : world(settings(workers, simd)), offset_(offset) {
         lks_collider_def ground = lks_default_collider_def();
         ground.shape = LKS_SHAPE_PLANE;
         ground.transform.position = place(0, 0, 0);
@@ -78,9 +80,10 @@ private:
         return asset;
     }
 
-    static lks_world_def settings(std::uint32_t workers) {
+    static lks_world_def settings(std::uint32_t workers, lks_simd simd) {
         lks_world_def def = world_def(60, 6);
         def.worker_count = workers;
+        def.simd = static_cast<std::uint32_t>(simd);
         return def;
     }
 
@@ -234,6 +237,150 @@ TEST_CASE("bodies don't depend on the number of workers") {
     one.tick(120);
     three.tick(120);
     CHECK(one.world.hash() == three.world.hash());
+}
+
+TEST_CASE("bodies, cloth and ropes that touch have the same bits on every instruction set") {
+    Playground plain({}, 1, LKS_SIMD_SCALAR);
+    std::vector<std::uint64_t> expected;
+    for (int i = 0; i < 48; ++i) {
+        plain.tick(5);
+        expected.push_back(plain.world.hash());
+    }
+    for (const lks_simd simd :
+         {LKS_SIMD_SSE41, LKS_SIMD_AVX2, LKS_SIMD_AVX512, LKS_SIMD_NEON, LKS_SIMD_WASM}) {
+        if (lks_simd_is_available(simd) == 0) {
+            continue;
+        }
+        INFO(std::string(lks_simd_name(simd)));
+        Playground wide({}, 2, simd);
+        for (const std::uint64_t hash : expected) {
+            wide.tick(5);
+            REQUIRE(wide.world.hash() == hash);
+        }
+    }
+}
+
+TEST_CASE("a pile saved as it lands goes on for 600 ticks with other workers and instructions") {
+    const auto fill = [](World& world, int count) {
+        add_ground(world);
+        for (int i = 0; i < count; ++i) {
+            Humanoid humanoid;
+            humanoid.def.transform = {fixed(0.2 * (i % 2), 0.4 + 0.5 * i, -0.9), about(1, 0, 0, 90)};
+            REQUIRE(humanoid.add(world) == LKS_OK);
+        }
+    };
+    const auto settings = [](std::uint32_t workers, lks_simd simd) {
+        lks_world_def def = world_def(60, 8);
+        def.worker_count = workers;
+        def.simd = static_cast<std::uint32_t>(simd);
+        return def;
+    };
+    World original(settings(1, LKS_SIMD_AUTO));
+    fill(original, 6);
+    original.step(50);
+    lks_fixed moving = 0;
+    REQUIRE(lks_world_kinetic_energy(original, &moving) == LKS_OK);
+    REQUIRE(moving > LKS_FIXED(100)); // some lie, some still fall
+    const Image image = original.save();
+    World fresh(settings(4, LKS_SIMD_SCALAR));
+    World dirty(settings(2, LKS_SIMD_AUTO));
+    fill(dirty, 8);
+    dirty.step(120);
+    for (World* world : {&fresh, &dirty}) {
+        REQUIRE(lks_world_load(*world, image.data(), image.size()) == LKS_OK);
+    }
+    for (int tick = 0; tick < 600; ++tick) {
+        original.step();
+        fresh.step();
+        dirty.step();
+        REQUIRE(fresh.hash() == original.hash());
+        REQUIRE(dirty.hash() == original.hash());
+    }
+    CHECK(lks_world_awake_body_count(original) == 0);
+    CHECK(fresh.save() == original.save());
+    CHECK(dirty.save() == original.save());
+}
+
+TEST_CASE("groups of bodies that have nothing to do with each other may be added in any order") {
+    // A figure that falls, a stack that is struck, a chain on an anchor, a ball that hangs on a rope.
+    Chain shape;
+    shape.segments = 6;
+    shape.particle_mass = 0.1;
+    const Asset rope = shape.build();
+    using Group = std::function<std::vector<lks_body_id>(World&)>;
+    const Group groups[] = {
+        [](World& world) {
+            Humanoid humanoid;
+            humanoid.def.transform = {fixed(0, 0.5, 0), about(1, 0.3, 0, 70)};
+            std::vector<lks_body_id> bodies(LKS_HUMANOID_BONES);
+            REQUIRE(humanoid.add(world, bodies.data()) == LKS_OK);
+            return bodies;
+        },
+        [](World& world) {
+            std::vector<lks_body_id> bodies;
+            for (int i = 0; i < 4; ++i) {
+                bodies.push_back(add_body(world, box_shape(0.2, 0.2, 0.2), fixed(20, 0.2 + 0.4 * i, 0)));
+            }
+            lks_body_def ball = lks_default_body_def();
+            ball.velocity = fixed(5, 1, 0);
+            bodies.push_back(add_body(world, ball_shape(0.2), fixed(18, 1, 0.1), ball));
+            return bodies;
+        },
+        [](World& world) {
+            std::vector<lks_body_id> bodies{add_anchor(world, fixed(40, 3, 0))};
+            for (int i = 0; i < 5; ++i) {
+                bodies.push_back(add_body(world, capsule_shape(0.05, 0.15), fixed(40.2 + 0.4 * i, 3, 0)));
+                lks_joint_def joint = lks_default_joint_def();
+                joint.frame_a.position = fixed(i == 0 ? 0 : 0.2, 0, 0);
+                joint.frame_b.position = fixed(-0.2, 0, 0);
+                add_joint(world, joint, bodies[bodies.size() - 2], bodies.back());
+            }
+            return bodies;
+        },
+        [&](World& world) {
+            const lks_object_id line = world.add(rope, at(60, 5, 0));
+            world.pin(line, 0);
+            lks_attachment_def def = lks_default_attachment_def();
+            def.object = line;
+            def.vertex = 6;
+            def.body = add_body(world, ball_shape(0.2), fixed(60 + shape.length, 5, 0));
+            lks_attachment_id id{};
+            REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
+            return std::vector<lks_body_id>{def.body};
+        }};
+    // Where all bodies of each group end.
+    const auto run = [&](const std::vector<int>& order, std::uint32_t workers) {
+        lks_world_def def = world_def(60, 8);
+        def.worker_count = workers;
+        World world(def);
+        add_ground(world);
+        std::vector<std::vector<lks_body_id>> bodies(std::size(groups));
+        for (const int group : order) {
+            bodies[static_cast<std::size_t>(group)] = groups[group](world);
+        }
+        world.step(180);
+        std::vector<std::int64_t> found;
+        for (const std::vector<lks_body_id>& group : bodies) {
+            for (const lks_body_id body : group) {
+                lks_transform place{};
+                lks_vec3 velocity{};
+                lks_vec3 spin{};
+                REQUIRE(lks_body_transform(world, body, &place) == LKS_OK);
+                REQUIRE(lks_body_velocity(world, body, &velocity, &spin) == LKS_OK);
+                for (const lks_vec3& v : {place.position, velocity, spin}) {
+                    found.insert(found.end(), {v.x, v.y, v.z});
+                }
+                const lks_rotation& q = place.rotation;
+                found.insert(found.end(), {q.x, q.y, q.z, q.w});
+            }
+        }
+        return found;
+    };
+    const std::vector<std::int64_t> expected = run({0, 1, 2, 3}, 1);
+    CHECK(run({3, 2, 1, 0}, 1) == expected);
+    CHECK(run({1, 3, 0, 2}, 1) == expected);
+    CHECK(run({2, 0, 3, 1}, 4) == expected);
+    CHECK(run({2, 1}, 1) != expected); // it looks at all of them
 }
 
 TEST_CASE("a broken image of bodies is refused and leaves the world as it was") {
