@@ -107,4 +107,10 @@ TEST_CASE("what hangs on what is torn away, or is in the same place, ends where 
     def.other_vertex = 19;
     REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
     world.step(120);
+    for (const lks_object_id rope_of : {object, other}) {
+        for (const lks_vec3& position : world.positions(rope_of)) {
+            CHECK(metres(position).length() < 6000); // near what pulls at it, 5 km away
+        }
+    }
+    CHECK(energy_of(world) < 1e9);
 }

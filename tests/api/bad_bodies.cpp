@@ -1,6 +1,7 @@
 // Bodies, joints and ragdolls that are refused, each with a sentence, and hard ones that are not.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
 #include <functional>
 
@@ -249,4 +250,52 @@ TEST_CASE("what is hard but allowed ends where it can") {
     }
     CHECK(energy_of(world) < 100);
     CHECK(world.counters().lost_contacts == 0);
+}
+
+TEST_CASE("a joint whose bodies both become kinematic rests, and holds again when one is free") {
+    World world(world_def(60, 8));
+    const lks_body_id a = add_anchor(world, {});
+    const lks_body_id b = add_body(world, ball_shape(0.1), fixed(0.3, 0, 0));
+    lks_joint_def def = lks_default_joint_def();
+    def.frame_b.position = fixed(-0.3, 0, 0);
+    const lks_joint_id joint = add_joint(world, def, a, b);
+    world.step(10);
+    REQUIRE(lks_body_set_kind(world, b, LKS_BODY_KINEMATIC) == LKS_OK);
+    const Vector still = state_of(world, b).position;
+    world.step(30);
+    CHECK((state_of(world, b).position - still).length() == 0);
+    // Torn apart by hand, which neither of them can resist.
+    lks_transform away = lks_transform_identity();
+    away.position = fixed(50, 0, 0);
+    REQUIRE(lks_body_move_to(world, b, away) == LKS_OK);
+    world.step();
+    lks_fixed error = 0;
+    REQUIRE(lks_joint_error(world, joint, &error) == LKS_OK);
+    CHECK(std::abs(metres(error) - 49.7) < 1e-6);
+    lks_vec3 force{};
+    REQUIRE(lks_joint_load(world, joint, &force, nullptr) == LKS_OK);
+    CHECK(metres(force).length() == 0);
+    REQUIRE(lks_body_set_kind(world, b, LKS_BODY_DYNAMIC) == LKS_OK);
+    world.step(1200);
+    REQUIRE(lks_joint_error(world, joint, &error) == LKS_OK);
+    CHECK(metres(error) < 1e-3);
+    CHECK(energy_of(world) < 1e6);
+}
+
+TEST_CASE("a body that two places pull at stays between them") {
+    // Two anchors two metres apart, and joints that have the body at both.
+    World world(world_def(60, 8));
+    const lks_body_id left = add_anchor(world, fixed(-1, 2, 0));
+    const lks_body_id right = add_anchor(world, fixed(1, 2, 0));
+    const lks_body_id body = add_body(world, ball_shape(0.1), fixed(0.4, 2, 0));
+    add_joint(world, lks_default_joint_def(), left, body);
+    add_joint(world, lks_default_joint_def(), right, body);
+    for (int tick = 0; tick < 600; ++tick) {
+        world.step();
+        const BodyState state = state_of(world, body);
+        REQUIRE(std::abs(state.position.x) < 1.1);
+        REQUIRE(std::abs(state.position.y - 2) < 0.2);
+        REQUIRE(std::abs(state.position.z) < 0.1);
+    }
+    CHECK(world.counters().speed_clamps == 0);
 }
