@@ -180,3 +180,19 @@ TEST_CASE("a ragdoll on the ground falls asleep; one that must not sleep, and wh
     CHECK(lks_world_awake_body_count(world) == 1);
     CHECK(lks_body_is_awake(world, box) == 1);
 }
+
+TEST_CASE("what sways by four centimetres stays awake, by four millimetres not") {
+    for (const double amplitude : {0.04, 0.004}) {
+        World world(world_def(60, 8));
+        const lks_body_id anchor = add_anchor(world, {});
+        const double length = 0.25;
+        lks_body_def def = lks_default_body_def();
+        def.velocity = fixed(amplitude * std::sqrt(9.81 / length), 0, 0);
+        const lks_body_id ball = add_body(world, ball_shape(0.05), fixed(0, -length, 0), def);
+        lks_joint_def joint = lks_default_joint_def();
+        joint.frame_b.position = fixed(0, length, 0);
+        add_joint(world, joint, anchor, ball);
+        world.step(300);
+        CHECK(lks_body_is_awake(world, ball) == (amplitude > 0.01 ? 1u : 0u));
+    }
+}

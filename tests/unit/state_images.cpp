@@ -2,7 +2,9 @@
 // a trace or gives a world that works; none crashes.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
+#include <map>
 #include <vector>
 
 #include "state/hash.h"
@@ -39,6 +41,20 @@ struct Small {
         add_bodies();
         world.step(3);
     }
+
+    // The present state's hash is that of no other state, but for this image's.
+    bool knows_apart(const Image& image) {
+        const auto found = seen.emplace(world.hash(), checksum_of(image));
+        return found.first->second == checksum_of(image);
+    }
+
+    static std::uint64_t checksum_of(const Image& image) {
+        lks::Hash hash;
+        hash.add_bytes(image.bytes() + lks::image_checked_from, image.size() - lks::image_checked_from);
+        return hash.finish();
+    }
+
+    std::map<std::uint64_t, std::uint64_t> seen; // checksums by hash
 
     // A free slot between used ones, a joint of each kind, boxes that push each other, one that is kinematic,
     // one of every shape.
@@ -109,21 +125,40 @@ void put_u64(Image& image, std::size_t place, std::uint64_t value) {
 }
 
 void put_right_checksum(Image& image) {
-    lks::Hash hash;
-    hash.add_bytes(image.bytes() + lks::image_checked_from, image.size() - lks::image_checked_from);
-    put_u64(image, 24, hash.finish());
+    put_u64(image, 24, Small::checksum_of(image));
 }
 
-// Loads it; where it is refused nothing may have changed, and where it is not the world must go on.
+// Every body is turned by a rotation.
+bool is_turned_well(const World& world) {
+    for (std::uint32_t i = 0; i < 12; ++i) {
+        const lks_body_id body{i, 1};
+        lks_transform transform{};
+        if (lks_world_has_body(world, body) == 0) {
+            continue;
+        }
+        REQUIRE(lks_body_transform(world, body, &transform) == LKS_OK);
+        const lks_rotation& q = transform.rotation;
+        const double squared =
+            (double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z + double(q.w) * q.w) * 0x1p-60;
+        if (std::abs(squared - 1) > 1e-5) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Loads it; where it is refused nothing may have changed, and where it is not the world must be another one,
+// and go on.
 bool survives(Small& small, const Image& image, std::uint64_t& accepted) {
     const std::uint64_t before = small.world.hash();
     const lks_result result = lks_world_load(small.world, image.data(), image.size());
     if (result == LKS_OK) {
         ++accepted;
-        const bool same_image = small.world.save() == image;
+        const Image now = small.world.save();
+        const bool good = now == image && is_turned_well(small.world) && small.knows_apart(now);
         small.world.step(2);
         (void)small.world.hash();
-        return same_image;
+        return good;
     }
     return (result == LKS_ERROR_CORRUPT_IMAGE || result == LKS_ERROR_FOREIGN_IMAGE) &&
            small.world.hash() == before && lks_world_last_error(small.world)->message[0] != '\0';
