@@ -80,10 +80,13 @@ Experiment measure_part(const std::string& part, const AccuracyOptions& options,
     const std::vector<MeasuredScene> scenes = measured_scenes();
     MeasuredScene scene = *std::find_if(
         scenes.begin(), scenes.end(), [&](const MeasuredScene& candidate) { return candidate.name == part; });
-    // Air brings it to rest; the others still swing, and are chaotic by then.
     if (options.long_times && scene.lowest_vertex > 0) {
+        // Air brings it to rest.
         scene.ticks = 600;
         scene.deviation_tick = 600;
+    }
+    if (options.long_times && scene.is_regular) {
+        scene.later_ticks = {600, 3600};
     }
     return measure_particles(scene, grid, progress);
 }

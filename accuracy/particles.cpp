@@ -19,6 +19,7 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 // What is kept of a run.
 struct Trace {
     Positions at_deviation;
+    std::vector<Positions> later;
     double worst_stretch = 0;   // of all ticks
     double mean_stretch = 0;    // over constraints and ticks
     double lowest = 0;          // height of the lowest vertex at the end
@@ -113,6 +114,13 @@ Trace trace(reference::Simulation& simulation, const MeasuredScene& measured, co
         }
     }
     result.nanoseconds = least / static_cast<double>(measured.scene.start.size());
+    int now = last;
+    for (const int then : measured.later_ticks) {
+        for (; now < then; ++now) {
+            simulation.tick();
+        }
+        result.later.push_back(simulation.positions());
+    }
     return result;
 }
 
@@ -170,7 +178,14 @@ struct Measurer {
 
     explicit Measurer(const MeasuredScene& scene) : measured(scene) {
         const reference::Schedule schedule{measured.reference_substeps, 1};
-        converged = trace(*simulate(Engine::double_precision, measured.scene, schedule), measured, stiff);
+        MeasuredScene until_later = measured;
+        until_later.later_ticks.clear();
+        converged = trace(*simulate(Engine::double_precision, measured.scene, schedule), until_later, stiff);
+        if (!measured.later_ticks.empty()) {
+            const MeasuredScene direct = at_once(measured);
+            converged.later =
+                trace(*simulate(Engine::double_precision, direct.scene, schedule), direct, stiff).later;
+        }
         if (measured.force_at_pin) {
             // Of ropes solved at once: swept, forces jump from one substep to the next.
             converged.forces = forces_of(Engine::double_precision, at_once(measured), schedule);
@@ -206,6 +221,10 @@ struct Measurer {
         }
         if (measured.keeps_energy) {
             add(100 * std::abs(found.energy - start_energy) / energy_scale);
+        }
+        for (std::size_t i = 0; i < measured.later_ticks.size(); ++i) {
+            add(largest_distance(found.later[i], converged.later[i]));
+            add(twin == nullptr ? undefined : largest_distance(found.later[i], twin->later[i]));
         }
         return row;
     }
@@ -252,6 +271,11 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
             {"energy drift", "%",
              "energy gained or lost at the end, relative to what the whole would get "
              "by falling through its length"});
+    }
+    for (const int tick : measured.later_ticks) {
+        const std::string when = std::to_string(tick / 60) + " s";
+        experiment.quantities.push_back({"deviation, " + when, "m", "deviation after " + when});
+        experiment.quantities.push_back({"rounding, " + when, "m", "rounding after " + when});
     }
     experiment.has_rounding = true;
     experiment.discretisation = 2;

@@ -38,6 +38,7 @@ MeasuredScene rope_heavy_end() {
     measured.what = "2 m in 40 segments of 10 g, 1 kg at the end (1:100), let go at 45°; one second.";
     measured.scene = reference::make_rope(40, 2, 0.01, inextensible, {1, -1, 0});
     measured.scene.masses.back() = 1;
+    measured.is_regular = true;
     measured.keeps_energy = true;
     measured.force_at_pin = true;
     measured.reference_substeps = 2560;

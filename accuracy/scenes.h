@@ -15,6 +15,8 @@ struct MeasuredScene {
     reference::ParticleScene scene;
     int ticks = 60;                         // stretch and energy are looked at until then
     int deviation_tick = 60;                // where particles are compared, before chaos has its way
+    bool is_regular = false;                // not chaotic: places can be compared after a minute
+    std::vector<int> later_ticks{};         // when they are, beside the direct solution
     bool keeps_energy = false;              // nothing takes it out: no air, nothing soft
     bool force_at_pin = false;              // of the first edge at the first pin
     std::size_t lowest_vertex = 0;          // whose height is the sag; 0: not asked for
