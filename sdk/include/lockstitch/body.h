@@ -81,7 +81,7 @@ LKS_API lks_body_shape lks_default_body_shape(void);
 /* Takes the lowest free index. Bodies are solved in the order of their indices: the order in which bodies
  * that meet are added is part of the simulation. */
 LKS_API lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_body_id* body);
-/* Joints on it are removed with it. */
+/* Joints and attachments on it are removed with it. */
 LKS_API lks_result lks_world_remove_body(lks_world* world, lks_body_id body);
 LKS_API uint32_t lks_world_has_body(const lks_world* world, lks_body_id body);
 LKS_API uint32_t lks_world_body_count(const lks_world* world);

@@ -23,11 +23,11 @@ typedef struct lks_bone {
      * and the filter's group are ignored. */
     lks_body_def body;
     lks_transform joint_frame; /* in the ragdoll's frame, in the rest pose; its axis is local y */
-    lks_fixed swing_limit;     /* degrees, as in lks_joint_def */
-    lks_fixed twist_min;
-    lks_fixed twist_max;
-    lks_fixed friction;     /* N·m of the joint */
-    lks_fixed motor_torque; /* N·m at scale 1, 0 .. 1000000: what lks_ragdoll_drive turns it with */
+    lks_fixed swing_limit;     /* degrees, 0 .. 180; these three as in lks_joint_def */
+    lks_fixed twist_min;       /* degrees, -180 .. twist_max */
+    lks_fixed twist_max;       /* degrees, twist_min .. 180 */
+    lks_fixed friction;        /* N·m of the joint, 0 .. 1000000 */
+    lks_fixed motor_torque;    /* N·m at scale 1, 0 .. 1000000: what lks_ragdoll_drive turns it with */
 } lks_bone;
 
 typedef struct lks_ragdoll_def {
@@ -35,14 +35,16 @@ typedef struct lks_ragdoll_def {
     uint32_t bone_count;  /* 1 .. LKS_MAX_BONES */
     const lks_bone* bones;
     lks_transform transform; /* of the ragdoll's frame in the world */
-    lks_vec3 velocity;       /* of all bones, m/s */
+    lks_vec3 velocity;       /* of all bones, m/s, each axis within the speed limit */
     lks_fixed scale;         /* of all lengths, 0.05 .. 20; masses go with its cube */
     int32_t group;     /* of all bones' filters; 0: as the bones say. Less than zero: bones don't collide
                           with each other at all, and otherwise all but neighbours do */
     uint32_t reserved; /* 0 */
 } lks_ragdoll_def;
 
+/* A root without shapes at the origin, lks_default_body_def for its body, no limits, friction or muscles. */
 LKS_API lks_bone lks_default_bone(void);
+/* No bones yet, at the origin, at rest, scale 1, group 0. */
 LKS_API lks_ragdoll_def lks_default_ragdoll_def(void);
 
 /* Adds a body for each bone, and a joint from each bone but the root to its parent (body a). `bodies` has
