@@ -2,6 +2,7 @@
 // the image's afterwards and has its future.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -156,5 +157,25 @@ TEST_CASE("an image has the same future in a world whose bodies and joints are o
             const Image other = changed.world.save();
             check_same_future(other, original.world);
         }
+    }
+}
+
+TEST_CASE("what is read out follows from the state: a loaded world says the same at once") {
+    Chained original;
+    for (int tick = 0; tick < 60; ++tick) {
+        original.world.step();
+        const Image image = original.world.save();
+        World loaded(world_def(60, 6));
+        REQUIRE(lks_world_load(loaded, image.data(), image.size()) == LKS_OK);
+        for (const lks_joint_id joint : original.joints) {
+            lks_fixed expected[3];
+            lks_fixed got[3];
+            REQUIRE(lks_joint_error(original.world, joint, &expected[0]) == LKS_OK);
+            REQUIRE(lks_joint_angles(original.world, joint, &expected[1], &expected[2]) == LKS_OK);
+            REQUIRE(lks_joint_error(loaded, joint, &got[0]) == LKS_OK);
+            REQUIRE(lks_joint_angles(loaded, joint, &got[1], &got[2]) == LKS_OK);
+            CHECK(std::equal(got, got + 3, expected));
+        }
+        CHECK(energy_of(loaded) == energy_of(original.world));
     }
 }
