@@ -16,6 +16,8 @@ struct Quantity {
 
 // Behind the name of a solver whose rope is solved at once.
 inline constexpr const char* at_once_suffix = ", at once";
+// Behind that of one whose cloth has tethers.
+inline constexpr const char* tethered_suffix = ", tethers";
 
 struct Row {
     std::string solver;

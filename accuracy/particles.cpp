@@ -308,6 +308,9 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
         if (measured.is_rope()) {
             add_ours(at_once(measured), at_once_suffix);
         }
+        if (measured.may_be_tethered()) {
+            add_ours(tethered(measured), tethered_suffix);
+        }
         if (measured.scene.ball.radius == 0) {
             // Where nothing is soft, PBD of stiffness 1 is XPBD.
             if (measured.has_compliance) {

@@ -21,8 +21,10 @@ std::vector<std::string> solvers_of(const Experiment& experiment) {
 // Of ours: swept, and where there is such a thing, solved at once.
 std::vector<std::string> suffixes_of(const Experiment& experiment) {
     std::vector<std::string> suffixes{""};
-    if (has_solver(experiment, std::string("fixed-point") + at_once_suffix)) {
-        suffixes.push_back(at_once_suffix);
+    for (const char* suffix : {at_once_suffix, tethered_suffix}) {
+        if (has_solver(experiment, std::string("fixed-point") + suffix)) {
+            suffixes.push_back(suffix);
+        }
     }
     return suffixes;
 }

@@ -54,20 +54,41 @@ MeasuredScene at_once(MeasuredScene rope) {
     return rope;
 }
 
-MeasuredScene cloth_hang() {
-    constexpr std::uint32_t side = 32;
+MeasuredScene tethered(MeasuredScene cloth) {
+    cloth.name += tethered_suffix;
+    cloth.scene.tethers = 2;
+    return cloth;
+}
+
+namespace {
+
+MeasuredScene hanging(std::uint32_t side) {
     MeasuredScene measured;
-    measured.name = "cloth_hang";
-    measured.title = "Cloth, hanging";
-    measured.what =
-        "2 m × 2 m, 32 × 32 vertices, 1 kg, inextensible along its threads, held at two corners and let "
-        "go horizontally, in air (1/s).";
+    measured.what = "2 m × 2 m, " + std::to_string(side) + " × " + std::to_string(side) +
+                    " vertices, 1 kg, inextensible along its threads, held at two corners and let go "
+                    "horizontally, in air (1/s).";
     measured.scene = cloth(side);
     measured.scene.pins = {0, side - 1};
     measured.ticks = 120;
     measured.lowest_vertex = std::size_t{side} * (side - 1) + side / 2;
     measured.has_compliance = true;
+    return measured;
+}
+
+} // namespace
+
+MeasuredScene cloth_hang() {
+    MeasuredScene measured = hanging(32);
+    measured.name = "cloth_hang";
+    measured.title = "Cloth, hanging";
     measured.recommended = {10, 20, 40};
+    return measured;
+}
+
+MeasuredScene cloth_fine() {
+    MeasuredScene measured = hanging(64);
+    measured.name = "cloth_fine";
+    measured.title = "Fine cloth, hanging";
     return measured;
 }
 

@@ -26,15 +26,22 @@ struct MeasuredScene {
     std::vector<int> recommended_at_once{}; // the same of a rope that is solved at once
 
     bool is_rope() const { return !scene.rest.empty(); }
+    bool may_be_tethered() const { return !is_rope() && !scene.pins.empty(); }
 };
 
 // The same rope, solved at once.
 MeasuredScene at_once(MeasuredScene rope);
 
+// The same cloth, with two tethers a vertex to its pins.
+MeasuredScene tethered(MeasuredScene cloth);
+
 MeasuredScene rope_swing();
 MeasuredScene rope_heavy_end();
 MeasuredScene cloth_hang();
 MeasuredScene cloth_drape();
+// Four times as many vertices: minutes where it is to converge.
+MeasuredScene cloth_fine();
+// All but the fine cloth.
 std::vector<MeasuredScene> measured_scenes();
 
 } // namespace lks_accuracy

@@ -33,8 +33,9 @@ ClothDef = struct(
     "ClothDef", ("struct_size", u32), ("columns", u32), ("rows", u32), ("vertex_count", u32),
     ("triangle_count", u32), ("reserved", u32), ("width", real), ("height", real), ("vertices", pointer),
     ("triangles", pointer), ("mass", real), ("area_density", real), ("vertex_masses", pointer),
-    ("stretch", Material), ("shear", Material), ("bend", Material), ("particle_radius", real),
-    ("friction", real), ("allocator", Allocator), ("error", pointer))
+    ("stretch", Material), ("shear", Material), ("bend", Material), ("tether_anchors", pointer),
+    ("tether_anchor_count", u32), ("tethers_per_vertex", u32), ("particle_radius", real), ("friction", real),
+    ("allocator", Allocator), ("error", pointer))
 ObjectDef = struct(
     "ObjectDef", ("struct_size", u32), ("record_forces", u32), ("asset", pointer), ("transform", Transform),
     ("velocity", Vec3), ("gravity_factor", fixed), ("linear_damping", fixed))

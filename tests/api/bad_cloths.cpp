@@ -290,3 +290,34 @@ TEST_CASE("disconnected pieces and opposite windings work") {
     world.add(asset, at(0, 0, 0));
     world.step(10);
 }
+
+TEST_CASE("tether anchors that are no vertices, stand twice or are too many are refused") {
+    const auto with = [](const std::vector<std::uint32_t>& anchors) {
+        return [&anchors](lks_cloth_def& def) {
+            def.tether_anchors = anchors.data();
+            def.tether_anchor_count = static_cast<std::uint32_t>(anchors.size());
+        };
+    };
+    refused(with({3, 441}), "441");
+    refused(with({4294967295u}), "4294967295");
+    refused(with({7, 3, 5, 3}), "vertex 3");
+    std::vector<std::uint32_t> many(LKS_MAX_TETHER_ANCHORS + 1);
+    for (std::uint32_t i = 0; i < many.size(); ++i) {
+        many[i] = i;
+    }
+    refused(with(many), "257", LKS_ERROR_LIMIT);
+    refused([](auto& def) { def.tether_anchor_count = 1; }, "tether_anchors", LKS_ERROR_NULL_ARGUMENT);
+    for (const std::uint32_t count : {0u, 5u, 4294967295u}) {
+        refused([&](auto& def) { def.tethers_per_vertex = count; }, std::to_string(count));
+    }
+    many.pop_back();
+    lks_cloth_def def = lks_default_cloth_def();
+    with(many)(def);
+    const Asset asset(def);
+    World world;
+    const lks_object_id object = world.add(asset, at(0, 0, 0));
+    for (const std::uint32_t vertex : many) {
+        world.pin(object, vertex);
+    }
+    world.step(10);
+}

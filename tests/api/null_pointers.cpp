@@ -91,6 +91,8 @@ TEST_CASE("calls without an asset are refused or answer with nothing") {
     CHECK(lks_asset_triangle_count(nullptr) == 0);
     CHECK(lks_asset_triangles(nullptr, indices, 3) == null);
     CHECK(lks_asset_constraint(nullptr, 0, &info) == null);
+    lks_tether tethers[LKS_MAX_TETHERS_PER_VERTEX];
+    CHECK(lks_asset_vertex_tethers(nullptr, 0, tethers) == 0);
     lks_asset_release(nullptr);
 }
 
@@ -121,6 +123,7 @@ TEST_CASE("missing definitions and missing places for results are refused") {
 
     const Asset chain = Chain().build();
     CHECK(lks_asset_constraint(chain, 0, nullptr) == null);
+    CHECK(lks_asset_vertex_tethers(chain, 0, nullptr) == 0);
     const Asset net = Net().build();
     CHECK(lks_asset_triangles(net, nullptr, 100000) == null);
 }

@@ -135,6 +135,11 @@ SceneAsset::SceneAsset(const ParticleScene& scene) {
         def.shear = scene.materials[LKS_CONSTRAINT_SHEAR];
         def.bend = scene.materials[LKS_CONSTRAINT_BEND];
         def.particle_radius = 0;
+        if (scene.tethers > 0) {
+            def.tethers_per_vertex = scene.tethers;
+            def.tether_anchors = scene.pins.data();
+            def.tether_anchor_count = static_cast<std::uint32_t>(scene.pins.size());
+        }
         def.error = &error;
         result = lks_asset_create_cloth(&def, &asset_);
     } else {

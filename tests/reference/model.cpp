@@ -45,6 +45,18 @@ std::vector<Edge> edges_of(const lks_asset* asset, const Materials& materials, E
     return edges;
 }
 
+std::vector<Tether> tethers_of(const lks_asset* asset) {
+    std::vector<Tether> found;
+    for (std::uint32_t vertex = 0; vertex < lks_asset_vertex_count(asset); ++vertex) {
+        lks_tether tethers[LKS_MAX_TETHERS_PER_VERTEX];
+        const std::uint32_t count = lks_asset_vertex_tethers(asset, vertex, tethers);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            found.push_back({vertex, tethers[i].anchor, support::metres(tethers[i].length)});
+        }
+    }
+    return found;
+}
+
 std::vector<std::size_t> segments_of(const std::vector<Edge>& edges) {
     std::vector<std::size_t> segments;
     for (std::size_t i = 0; i < edges.size(); ++i) {

@@ -46,6 +46,13 @@ struct Ball {
     double radius; // with the particles' own; 0: none
 };
 
+// A particle is no further than this from the anchor while that is pinned.
+struct Tether {
+    std::uint32_t particle;
+    std::uint32_t anchor; // particle
+    double length;
+};
+
 struct Model {
     std::vector<support::Vector> positions;
     std::vector<double> masses;
@@ -56,6 +63,7 @@ struct Model {
     Ball ball{};
     // Of a rope that is solved directly: the edges of its segments, in their order. Otherwise empty.
     std::vector<std::size_t> chain{};
+    std::vector<Tether> tethers{}; // by particle, and then by anchor; followed by xpbd.h
 };
 
 enum class EdgeOrder {
@@ -68,6 +76,8 @@ std::vector<std::size_t> segments_of(const std::vector<Edge>& edges);
 
 // Materials by lks_constraint_family.
 using Materials = std::array<lks_distance_material, 3>;
+
+std::vector<Tether> tethers_of(const lks_asset* asset);
 
 std::vector<Edge> edges_of(const lks_asset* asset, const Materials& materials,
                            EdgeOrder order = EdgeOrder::canonical);

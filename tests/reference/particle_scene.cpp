@@ -141,6 +141,7 @@ Model model_of(const ParticleScene& scene) {
         start.push_back({representable(p.x), representable(p.y), representable(p.z)});
     }
     Model model{start, scene.masses, edges_of(asset.get(), scene.materials), {}, {}, scene.pins, scene.ball};
+    model.tethers = tethers_of(asset.get());
     if (scene.solver == LKS_ROPE_DIRECT) {
         model.chain = segments_of(model.edges);
     }

@@ -28,6 +28,9 @@ struct ParticleScene {
     // Of a rope; followed by the SDK and xpbd.h, and automatic by the SDK alone.
     lks_rope_solver solver = LKS_ROPE_SWEPT;
     bool record_forces = false; // in the SDK
+    // Of a cloth: how many tethers a vertex, to the nearest of its pins; 0: none. Followed by the SDK and
+    // xpbd.h.
+    std::uint32_t tethers = 0;
 };
 
 ParticleScene make_rope(std::uint32_t segments, double length, double particle_mass,

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -54,7 +55,7 @@ public:
     Solver(const Model& model, const Settings& settings, const support::Vector& place = {})
         : settings_(settings), h_(static_cast<Scalar>(1 / (settings.tick_rate_hz * settings.substeps))),
           place_(place), edges_(model.edges), centre_(model.ball.centre + place),
-          radius_(static_cast<Scalar>(model.ball.radius)), chain_(model.chain) {
+          radius_(static_cast<Scalar>(model.ball.radius)), chain_(model.chain), tethers_(model.tethers) {
         for (std::size_t i = 0; i < model.positions.size(); ++i) {
             positions_.push_back(Vec(model.positions[i] + place));
             velocities_.emplace_back();
@@ -96,6 +97,7 @@ public:
                 predict(start, static_cast<Scalar>(substep) / static_cast<Scalar>(settings_.substeps));
                 std::fill(multipliers_.begin(), multipliers_.end(), Scalar(0));
                 for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
+                    hold_by_tethers();
                     for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
                         if (chain_.empty() || edges_[edge].family != LKS_CONSTRAINT_STRETCH) {
                             project(edge);
@@ -220,6 +222,43 @@ private:
         positions_[edge.b] = positions_[edge.b] - difference * (k.s_b * relative);
     }
 
+    void hold_by_tethers() {
+        const std::map<std::uint32_t, double> scales = scales_of_anchors();
+        for (const Tether& tether : tethers_) {
+            if (inverse_masses_[tether.anchor] != 0 || inverse_masses_[tether.particle] == 0) {
+                continue;
+            }
+            const Vec difference = positions_[tether.particle] - positions_[tether.anchor];
+            const Scalar ratio =
+                static_cast<Scalar>(tether.length * scales.at(tether.anchor)) / difference.length();
+            if (ratio < 1) {
+                positions_[tether.particle] = positions_[tether.particle] + difference * (ratio - 1);
+            }
+        }
+    }
+
+    // Two pins that are further apart than their two tethers of some particle are long together give way.
+    std::map<std::uint32_t, double> scales_of_anchors() const {
+        std::map<std::uint32_t, double> scales;
+        for (std::size_t i = 0; i < tethers_.size(); ++i) {
+            scales.emplace(tethers_[i].anchor, 1);
+            for (std::size_t j = i + 1; j < tethers_.size() && tethers_[j].particle == tethers_[i].particle;
+                 ++j) {
+                const std::uint32_t a = tethers_[i].anchor;
+                const std::uint32_t b = tethers_[j].anchor;
+                if (inverse_masses_[a] == 0 && inverse_masses_[b] == 0) {
+                    const double apart = (positions_[a].widened() - positions_[b].widened()).length();
+                    const double scale = apart / (tethers_[i].length + tethers_[j].length);
+                    for (const std::uint32_t anchor : {a, b}) {
+                        scales.emplace(anchor, 1);
+                        scales[anchor] = std::max(scales[anchor], scale);
+                    }
+                }
+            }
+        }
+        return scales;
+    }
+
     void leave_ball() {
         if (!(radius_ > 0)) {
             return;
@@ -298,6 +337,7 @@ private:
     Vec centre_;
     Scalar radius_;
     std::vector<std::size_t> chain_; // the edges of a rope that is solved directly
+    std::vector<Tether> tethers_;
     std::vector<double> masses_;
     std::vector<Scalar> inverse_masses_;
     std::vector<Vec> positions_, previous_, velocities_, targets_;

@@ -68,6 +68,8 @@ lks_cloth_def Net::def() const {
     result.bend = bend;
     result.particle_radius = radius;
     result.friction = friction;
+    result.tether_anchors = anchors.empty() ? nullptr : anchors.data();
+    result.tether_anchor_count = static_cast<std::uint32_t>(anchors.size());
     return result;
 }
 

@@ -45,8 +45,9 @@ struct Net {
     lks_distance_material bend = stiff();
     double radius = 0;
     double friction = 1;
+    std::vector<std::uint32_t> anchors{}; // of tethers, two a vertex
 
-    lks_cloth_def def() const; // its vertex_masses are null: build() adds them
+    lks_cloth_def def() const; // its vertex_masses are null: build() adds them; points to `anchors`
     Asset build(const lks_allocator& allocator = {}) const;
     // With one mass a vertex instead of particle_mass.
     Asset build(const std::vector<double>& masses) const;

@@ -59,6 +59,18 @@ TEST_CASE("a mesh is built or refused whichever allocation fails") {
     });
 }
 
+TEST_CASE("a cloth with tethers is built or refused whichever allocation fails") {
+    const std::uint32_t anchors[] = {0, 20, 220};
+    survives_every_failure([&](const lks_allocator& allocator, lks_error* error, lks_asset** asset) {
+        lks_cloth_def def = lks_default_cloth_def();
+        def.tether_anchors = anchors;
+        def.tether_anchor_count = 3;
+        def.allocator = allocator;
+        def.error = error;
+        return lks_asset_create_cloth(&def, asset);
+    });
+}
+
 TEST_CASE("a rope is built or refused whichever allocation fails") {
     survives_every_failure([](const lks_allocator& allocator, lks_error* error, lks_asset** asset) {
         lks_rope_def def = lks_default_rope_def();

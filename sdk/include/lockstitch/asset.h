@@ -36,6 +36,25 @@ typedef enum lks_constraint_family {
     LKS_CONSTRAINT_BEND = 2
 } lks_constraint_family;
 
+/* Tethers hold every vertex of a cloth within reach of its anchors: the vertices that the game is going to
+ * pin (Kim, Chentanez, Müller-Fischer, "Long Range Attachments", 2012). Few sweeps don't carry the load of a
+ * fine cloth to its pins, which shows as stretch; tethers do so in one step. At 20 × 1 they leave a seventh
+ * of the worst stretch of a 64 × 64 cloth that hangs from two corners, for a tenth of the cost
+ * (docs/accuracy.md).
+ *
+ * A tether pulls its vertex back to where the cloth itself would let it go: along the shortest way over the
+ * constraints, each as long as the weight of the whole cloth (9.81 m/s²) would stretch it. It never pushes,
+ * and does nothing to what is slack. It acts while its anchor is pinned, and only then: pins may be set,
+ * moved, torn off and set again at any time, and where two of them are moved further apart than the cloth
+ * between them is long, their tethers give way in proportion. A pinned vertex that is no anchor holds as
+ * without tethers; so does what hangs by an attachment.
+ *
+ * A tether's force is part of no constraint's: near anchors lks_object_constraint_force tells less than the
+ * load. Under more than its own weight (a heavy thing that hangs on it, strong gravity) a cloth with
+ * compliance is held shorter than it would be without tethers; one without compliance is not. */
+#define LKS_MAX_TETHER_ANCHORS 256u
+#define LKS_MAX_TETHERS_PER_VERTEX 4u
+
 /* A cloth: from a grid (columns and rows ≥ 2) or from an indexed triangle mesh (vertex_count > 0).
  *
  * Grid: vertices on the local x-y plane, centred; vertex (column, row) has index row * columns + column; row
@@ -69,13 +88,18 @@ typedef struct lks_cloth_def {
     lks_distance_material stretch;
     lks_distance_material shear;
     lks_distance_material bend;
-    double particle_radius; /* metres, 0 .. 1: the distance kept from colliders */
-    double friction;        /* factor on the collider's friction, 0 .. 100 */
+    const uint32_t*
+        tether_anchors; /* vertices, each once; null where there are none; read during the call only */
+    uint32_t tether_anchor_count; /* 0: no tethers; at most LKS_MAX_TETHER_ANCHORS */
+    uint32_t tethers_per_vertex;  /* to that many of the nearest anchors: 1 .. LKS_MAX_TETHERS_PER_VERTEX */
+    double particle_radius;       /* metres, 0 .. 1: the distance kept from colliders */
+    double friction;              /* factor on the collider's friction, 0 .. 100 */
     lks_allocator allocator;
     lks_error* error; /* null, or receives the sentence when the call fails */
 } lks_cloth_def;
 
-/* Grid 2×2 m of 21×21 vertices, 0.3 kg/m², inextensible stretch, shear 1e-7, bend 1e-5 m/N. */
+/* Grid 2×2 m of 21×21 vertices, 0.3 kg/m², inextensible stretch, shear 1e-7, bend 1e-5 m/N; no tether
+ * anchors, two tethers a vertex. */
 LKS_API lks_cloth_def lks_default_cloth_def(void);
 LKS_API lks_result lks_asset_create_cloth(const lks_cloth_def* def, lks_asset** asset);
 
@@ -146,6 +170,18 @@ typedef struct lks_constraint_info {
 
 LKS_API lks_result lks_asset_constraint(const lks_asset* asset, uint32_t constraint,
                                         lks_constraint_info* info);
+
+/* What holds a vertex within reach of an anchor. */
+typedef struct lks_tether {
+    uint32_t anchor; /* a vertex */
+    uint32_t reserved;
+    lks_fixed length; /* metres, to 2^-24, rounded up */
+} lks_tether;
+
+/* Writes the tethers of a vertex, in ascending order of anchors, and returns how many it has; 0 for null and
+ * for what is no vertex. An anchor has none to itself. */
+LKS_API uint32_t lks_asset_vertex_tethers(const lks_asset* asset, uint32_t vertex,
+                                          lks_tether tethers[LKS_MAX_TETHERS_PER_VERTEX]);
 
 #ifdef __cplusplus
 }

@@ -58,6 +58,7 @@ lks_cloth_def lks_default_cloth_def(void) {
     def.stretch = {0.0, 0.0, 1, 0};
     def.shear = {1e-7, 0.0, 1, 0};
     def.bend = {1e-5, 0.0, 1, 0};
+    def.tethers_per_vertex = 2;
     def.particle_radius = 0.01;
     def.friction = 1.0;
     return def;
@@ -84,7 +85,9 @@ lks_result lks_asset_create_cloth(const lks_cloth_def* def, lks_asset** asset) {
             result != LKS_OK) {
             return result;
         }
-        return def->vertex_count > 0 ? build_cloth_mesh(build, *def) : build_cloth_grid(build, *def);
+        const lks_result built =
+            def->vertex_count > 0 ? build_cloth_mesh(build, *def) : build_cloth_grid(build, *def);
+        return built != LKS_OK ? built : build_tethers(build, *def);
     });
 }
 
@@ -174,6 +177,28 @@ lks_result lks_asset_constraint(const lks_asset* asset, uint32_t constraint, lks
     info->colour = batch->colour;
     info->rest_length = (asset->rest_lengths[constraint] + half) >> coordinate_from_world_shift;
     return LKS_OK;
+}
+
+uint32_t lks_asset_vertex_tethers(const lks_asset* asset, uint32_t vertex,
+                                  lks_tether tethers[LKS_MAX_TETHERS_PER_VERTEX]) {
+    if (asset == nullptr || tethers == nullptr || vertex >= asset->vertex_count()) {
+        return 0;
+    }
+    const Tethers& all = asset->tethers;
+    const std::uint32_t particle = asset->vertex_to_particle[vertex];
+    const std::uint32_t group = particle / tether_group;
+    std::uint32_t found = 0;
+    const std::uint32_t end = all.empty() ? 0 : all.first_parts[group + 1];
+    for (std::uint32_t i = all.empty() ? 0 : all.first_parts[group]; i < end; ++i) {
+        const TetherPart& part = all.parts[i];
+        if ((part.members >> particle % tether_group & 1) != 0) {
+            const std::uint32_t length =
+                all.lengths[std::size_t{part.row} * asset->vertex_count() + particle];
+            tethers[found++] = {asset->particle_to_vertex[all.anchors[part.anchor]], 0,
+                                lks_fixed{length} << (world_fraction_bits - tether_fraction_bits)};
+        }
+    }
+    return found;
 }
 
 const char* lks_result_text(lks_result result) {

@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "asset/constraint_runs.h"
+#include "asset/tethers.h"
 #include "fixed/formats.h"
 #include "fixed/scaled.h"
 #include "memory/array.h"
@@ -58,7 +59,7 @@ struct lks_asset {
         : allocator(memory), vertex_to_particle(memory), particle_to_vertex(memory), rest_positions(memory),
           inverse_masses(memory), masses(memory), constraints(memory), rest_lengths(memory),
           rest_mantissas(memory), batches(memory), runs(memory), incident_offsets(memory),
-          incident_constraints(memory), chain(memory), triangles(memory) {}
+          incident_constraints(memory), chain(memory), tethers(memory), triangles(memory) {}
 
     lks_allocator allocator;
     mutable std::atomic<std::uint32_t> holders{1}; // the caller, and each world that knows it
@@ -83,6 +84,8 @@ struct lks_asset {
 
     // Of a rope that is solved directly: the constraint of each segment, in their order.
     lks::Array<std::uint32_t> chain;
+
+    lks::Tethers tethers;
 
     lks::Array<std::uint32_t> triangles; // the caller's numbering, three a triangle
 

@@ -45,6 +45,15 @@ std::uint64_t compute_fingerprint(const lks_asset& asset) {
         hash.add_i64(asset.rest_lengths[i]);
     }
     hash.add_u32(asset.chain.empty() ? 0 : 1);
+    if (!asset.tethers.empty()) {
+        const Tethers& tethers = asset.tethers;
+        hash.add_u32_array(tethers.anchors.data(), tethers.anchors.size());
+        hash.add_u32_array(tethers.lengths.data(), tethers.lengths.size());
+        for (const TetherPart& part : tethers.parts) {
+            hash.add_u64(part.members);
+            hash.add_u32(part.anchor);
+        }
+    }
     return hash.finish();
 }
 

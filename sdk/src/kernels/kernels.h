@@ -8,6 +8,7 @@
 #include "kernels/contact_task.h"
 #include "kernels/distance_task.h"
 #include "kernels/prediction_task.h"
+#include "kernels/tether_task.h"
 
 namespace lks {
 
@@ -18,6 +19,8 @@ struct Kernels {
     // Bit i: particle first + i may be touched; count ≤ 64.
     std::uint64_t (*near_box)(const BoxTask& task, std::uint32_t first, std::uint32_t count);
     std::uint64_t (*near_plane)(const PlaneTask& task, std::uint32_t first, std::uint32_t count);
+    // Bit i: particle first + i may be beyond its tether; count ≤ 64.
+    std::uint64_t (*beyond_tether)(const TetherTask& task, std::uint32_t first, std::uint32_t count);
     void (*measure_chain)(ChainSegments& segments);
     // XXH3_64bits_update.
     void (*hash_update)(void* state, const void* bytes, std::size_t size);

@@ -9,6 +9,7 @@
 #include "kernels/lanes_avx2.h"
 #include "kernels/leave_lanes.h"
 #include "kernels/prediction_lanes.h"
+#include "kernels/tether_lanes.h"
 
 namespace lks {
 
@@ -17,6 +18,7 @@ const Kernels kernels_avx2{LKS_SIMD_AVX2,
                            leaving<LanesAvx2, predict_lanes<LanesAvx2>>,
                            leaving<LanesAvx2, near_box_lanes<LanesAvx2>>,
                            leaving<LanesAvx2, near_plane_lanes<LanesAvx2>>,
+                           leaving<LanesAvx2, beyond_tether_lanes<LanesAvx2>>,
                            leaving<LanesAvx2, measure_chain_lanes<LanesAvx2>, ChainSegments&>,
                            leaving<LanesAvx2, hash_update>};
 

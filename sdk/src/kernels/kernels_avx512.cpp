@@ -15,6 +15,7 @@
 #include "kernels/lanes_avx512.h"
 #include "kernels/leave_lanes.h"
 #include "kernels/prediction_lanes.h"
+#include "kernels/tether_lanes.h"
 
 namespace lks {
 namespace {
@@ -35,6 +36,7 @@ const Kernels kernels_avx512{LKS_SIMD_AVX512,
                              leaving<LanesAvx512, predict_lanes<LanesAvx512, LanesAvx2>>,
                              leaving<LanesAvx512, near_box_lanes<LanesAvx512>>,
                              leaving<LanesAvx512, near_plane_lanes<LanesAvx512>>,
+                             leaving<LanesAvx512, beyond_tether_lanes<LanesAvx512>>,
                              leaving<LanesAvx512, measure_chain_lanes<LanesAvx512>, ChainSegments&>,
                              leaving<LanesAvx512, hash_update>};
 

@@ -8,6 +8,7 @@
 #include "kernels/hash_update.h"
 #include "kernels/lanes_neon.h"
 #include "kernels/prediction_lanes.h"
+#include "kernels/tether_lanes.h"
 
 namespace lks {
 
@@ -16,6 +17,7 @@ const Kernels kernels_neon{LKS_SIMD_NEON,
                            predict_lanes<LanesNeon>,
                            near_box_lanes<LanesNeon>,
                            near_plane_lanes<LanesNeon>,
+                           beyond_tether_lanes<LanesNeon>,
                            measure_chain_lanes<LanesNeon>,
                            hash_update};
 

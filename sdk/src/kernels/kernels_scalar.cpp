@@ -4,10 +4,11 @@
 #include "kernels/distance_scalar_loop.h"
 #include "kernels/hash_update.h"
 #include "kernels/prediction_scalar.h"
+#include "kernels/tether_scalar.h"
 
 namespace lks {
 
-const Kernels kernels_scalar{LKS_SIMD_SCALAR,   project_scalar,       predict_scalar, near_box_scalar,
-                             near_plane_scalar, measure_chain_scalar, hash_update};
+const Kernels kernels_scalar{LKS_SIMD_SCALAR,   project_scalar,       predict_scalar,       near_box_scalar,
+                             near_plane_scalar, beyond_tether_scalar, measure_chain_scalar, hash_update};
 
 } // namespace lks

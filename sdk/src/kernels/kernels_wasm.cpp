@@ -8,6 +8,7 @@
 #include "kernels/hash_update.h"
 #include "kernels/lanes_wasm.h"
 #include "kernels/prediction_lanes.h"
+#include "kernels/tether_lanes.h"
 
 namespace lks {
 
@@ -16,6 +17,7 @@ const Kernels kernels_wasm{LKS_SIMD_WASM,
                            predict_lanes<LanesWasm>,
                            near_box_lanes<LanesWasm>,
                            near_plane_lanes<LanesWasm>,
+                           beyond_tether_lanes<LanesWasm>,
                            measure_chain_lanes<LanesWasm>,
                            hash_update};
 

@@ -10,6 +10,7 @@
 #include "solver/local_frame.h"
 #include "solver/pins.h"
 #include "solver/prediction.h"
+#include "solver/tethers.h"
 #include "solver/world.h"
 #include "threads/blocks.h"
 
@@ -96,8 +97,25 @@ private:
         }
     }
 
-    // A rope that is solved directly comes last, so that an iteration ends with no segment stretched.
+    // Tethers come first: what they pull taut is then made even by the constraints.
     void project_batches() {
+        hold_by_tethers();
+        sweep_batches();
+    }
+
+    void hold_by_tethers() {
+        TetherAnchor* anchors = scratch_.anchors.data();
+        if (asset_.tethers.empty() || !place_tether_anchors(object_, anchors)) {
+            return;
+        }
+        in_blocks(object_.count(), particles_a_block,
+                  [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
+                      lks::hold_by_tethers(object_, anchors, *world_.kernels, first, count);
+                  });
+    }
+
+    // A rope that is solved directly comes last, so that an iteration ends with no segment stretched.
+    void sweep_batches() {
         const bool directly = !coefficients_.chain.empty();
         for (std::uint32_t batch = 0; batch < asset_.batches.size(); ++batch) {
             if (!directly || asset_.batches[batch].family != LKS_CONSTRAINT_STRETCH) {

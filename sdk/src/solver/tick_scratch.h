@@ -7,6 +7,7 @@
 #include "memory/array.h"
 #include "solver/chain.h"
 #include "solver/object.h"
+#include "solver/tethers.h"
 
 namespace lks {
 
@@ -14,6 +15,7 @@ struct TickScratch {
     Array<std::uint32_t> candidates; // colliders near the object at work
     Array<DistanceTask> batches;     // of the object at work, by batch
     Array<ChainWork> chain;          // room for the longest rope that is solved directly
+    Array<TetherAnchor> anchors;     // room for those of the asset that has most
     lks_world_counters counters{};   // of this tick
 };
 

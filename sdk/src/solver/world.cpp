@@ -22,6 +22,7 @@ lks_world::lks_world(const lks_world_def& def)
         worker.candidates.set_allocator(allocator);
         worker.batches.set_allocator(allocator);
         worker.chain.set_allocator(allocator);
+        worker.anchors.set_allocator(allocator);
     }
 }
 
@@ -107,7 +108,8 @@ const KnownAsset* lks_world::know_asset(const lks_asset& asset) {
     }
     for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
         if (!scratch[worker].batches.reserve(asset.batches.size()) ||
-            !scratch[worker].chain.reserve(asset.chain.empty() ? 0 : asset.chain.size() + 1)) {
+            !scratch[worker].chain.reserve(asset.chain.empty() ? 0 : asset.chain.size() + 1) ||
+            !scratch[worker].anchors.reserve(asset.tethers.anchors.size())) {
             return nullptr;
         }
     }
