@@ -49,8 +49,9 @@ typedef enum lks_constraint_family {
  * between them is long, their tethers give way in proportion. A pinned vertex that is no anchor holds as
  * without tethers; so does what hangs by an attachment.
  *
- * A tether's force is part of no constraint's: near anchors lks_object_constraint_force tells less than the
- * load. Under more than its own weight (a heavy thing that hangs on it, strong gravity) a cloth with
+ * A tether's force is part of no constraint's: next to anchors lks_object_constraint_force tells what the
+ * constraints still bear, a tenth of the load in a cloth that hangs by two corners. Don't take breaking loads
+ * from there. Under more than its own weight (a heavy thing that hangs on it, strong gravity) a cloth with
  * compliance is held shorter than it would be without tethers; one without compliance is not. */
 #define LKS_MAX_TETHER_ANCHORS 256u
 #define LKS_MAX_TETHERS_PER_VERTEX 4u
