@@ -25,6 +25,7 @@ constexpr Section sections[] = {
     {overhead_name, "a tick with next to nothing to do"},
     {ragdolls_name, "100 humanoids of 12 bodies fall on a plane, beside Bullet"},
     {pile_name, "30 humanoids of 15 bodies fall into a pit, beside Bullet"},
+    {coupling_name, "12 humanoids with capes, ropes from hand to hand: what coupling costs, and its errors"},
     {ropes_name, "a rope of 99 segments, swept and solved at once: cost and stretch"},
     {growth_name, "1,000 to 1,000,000 constraints"},
     {accuracy_name, "residual stretch against cost, substeps × iterations"},
@@ -93,6 +94,8 @@ bool measure(const std::string& part, const BenchOptions& options, Results& resu
         measure_ragdolls(rounds, results);
     } else if (part == pile_name) {
         measure_pile(rounds, results);
+    } else if (part == coupling_name) {
+        measure_coupling(rounds, results);
     } else if (part == ropes_name) {
         measure_ropes(rounds, results);
     } else if (part == growth_name) {

@@ -96,4 +96,18 @@ CrowdStairs::CrowdStairs() : Crowd(true) {
     velocity = millimetres(1500, 0, 100);
 }
 
+CrowdRows::CrowdRows() : Crowd(true) {
+    constexpr int hand_x = 225;
+    constexpr int hand_y = 840;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            lks_transform place = lks_transform_identity();
+            place.position =
+                millimetres((2 * hand_x + rope_length) * column, hand_height - hand_y, 1800 * row);
+            places.push_back(place);
+        }
+    }
+    velocity = millimetres(0, 0, 2000);
+}
+
 } // namespace lks_bench

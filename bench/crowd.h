@@ -46,6 +46,17 @@ struct CrowdStairs : Crowd {
     CrowdStairs();
 };
 
+// 12 of 15 bones, standing in three rows of four and pushed forward. Neighbours in a row have their hands
+// rope_length apart.
+struct CrowdRows : Crowd {
+    static constexpr int columns = 4;
+    static constexpr int rows = 3;
+    static constexpr int rope_length = 750; // mm
+    static constexpr int hand_height = 860; // of the hands' middle, mm
+
+    CrowdRows();
+};
+
 // An engine with the crowd in it.
 class CrowdWorld {
 public:

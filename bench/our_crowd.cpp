@@ -2,10 +2,12 @@
 
 namespace lks_bench {
 
-OurCrowd::OurCrowd(const Crowd& crowd, std::uint32_t substeps, std::uint32_t iterations) {
+OurCrowd::OurCrowd(const Crowd& crowd, std::uint32_t substeps, std::uint32_t iterations,
+                   std::uint32_t workers) {
     lks_world_def def = lks_default_world_def();
     def.substeps = substeps;
     def.iterations = iterations;
+    def.worker_count = workers;
     lks_world_create(&def, &world_);
     lks_collider_def ground = lks_default_collider_def();
     ground.shape = LKS_SHAPE_PLANE;

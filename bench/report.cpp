@@ -144,6 +144,8 @@ std::string markdown(const Results& results, const std::vector<Plot>& plots) {
               by_variant, by_measured, [](const Result& r) { return r.workload == "ragdolls_100"; });
     text += table(results, "30 humanoids of 15 bodies that fall into a pit: the same", by_variant,
                   by_measured, [](const Result& r) { return r.workload == "ragdolls_pile"; });
+    text += table(results, "12 humanoids with capes, ropes from hand to hand: ms a tick, and errors in mm",
+                  by_variant, by_measured, [](const Result& r) { return r.workload == "ragdolls_dressed"; });
     text += table(results, "A rope of 99 segments that swings: ns a segment and substep, and worst stretch",
                   by_variant, by_measured, [](const Result& r) { return r.workload == "ropes_swing"; });
     text += table(results, "Residual stretch (root mean square), substeps × iterations", by_measured,

@@ -10,6 +10,7 @@ inline constexpr const char* snapshots_name = "snapshots";
 inline constexpr const char* overhead_name = "overhead";
 inline constexpr const char* ragdolls_name = "ragdolls_100";
 inline constexpr const char* pile_name = "ragdolls_pile";
+inline constexpr const char* coupling_name = "ragdolls_dressed";
 inline constexpr const char* ropes_name = "ropes_swing";
 inline constexpr const char* accuracy_name = "accuracy";
 
@@ -25,6 +26,10 @@ void measure_overhead(int rounds, Results& results);
 // gained, beside Bullet's rigid bodies; save, load and hash.
 void measure_ragdolls(int rounds, Results& results);
 void measure_pile(int rounds, Results& results);
+// 12 humanoids of 15 bodies with capes on their shoulders, 9 ropes from hand to hand, fall on a plane: the
+// same number of ticks; milliseconds a tick coupled, attached without contacts between particles and bodies,
+// side by side with nothing in common, and of the bodies alone; how far joints and attachments are apart.
+void measure_coupling(int rounds, Results& results);
 // A rope of 99 segments swings for three seconds, its end 1 or 10,000 times as heavy as its points:
 // nanoseconds a segment and substep of a whole tick, and the worst stretch of any segment, swept and solved
 // at once.

@@ -46,6 +46,11 @@ for fall in "ragdolls_100", "ragdolls_pile":
     value(results, "ticks", "")
     for measured in "whole tick", "slowest tick", "snapshot, save", "snapshot, load":
         value(results, measured, "8 substeps")
+dressed = measure("ragdolls_dressed")
+for variant in "coupled", "attached only", "side by side", "bodies alone", "coupled, two workers":
+    value(dressed, "whole tick", f"20 substeps, {variant}")
+for measured in "joint error, worst", "attachment error, mean", "attachment error, worst":
+    value(dressed, measured, "8 substeps, coupled")
 ropes = measure("ropes_swing")
 for variant in "swept, 10 substeps", "at once, 10 substeps":
     value(ropes, "tick a segment, 1:10,000", variant)

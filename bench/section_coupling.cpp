@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dressed_crowd.h"
+#include "sections.h"
+
+namespace lks_bench {
+namespace {
+
+// Mean and worst of all ticks.
+class Errors {
+public:
+    void add(const std::vector<double>& errors) {
+        for (const double error : errors) {
+            sum_ += error;
+            worst_ = std::max(worst_, error);
+        }
+        count_ += errors.size();
+    }
+    void report(const char* measured, const std::string& variant, Results& results) const {
+        if (count_ != 0) {
+            const std::string name = measured;
+            results.push_back(
+                {coupling_name, name + ", mean", variant, 1000 * sum_ / static_cast<double>(count_), "mm"});
+            results.push_back({coupling_name, name + ", worst", variant, 1000 * worst_, "mm"});
+        }
+    }
+
+private:
+    double sum_ = 0;
+    double worst_ = 0;
+    std::size_t count_ = 0;
+};
+
+struct Run {
+    std::string name;
+    std::unique_ptr<DressedCrowd> dressed;
+    std::vector<double> times{}; // ms
+    Errors joints{};
+    Errors attachments{};
+
+    void tick(bool settled) {
+        const auto start = std::chrono::steady_clock::now();
+        dressed->crowd().tick();
+        times.push_back(
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+        // At first the capes' edges are drawn together to the shoulders.
+        if (settled) {
+            joints.add(dressed->crowd().joint_errors());
+            attachments.add(dressed->attachment_errors());
+        }
+    }
+    double mean() const {
+        double sum = 0;
+        for (const double time : times) {
+            sum += time;
+        }
+        return sum / static_cast<double>(times.size());
+    }
+};
+
+} // namespace
+
+void measure_coupling(int rounds, Results& results) {
+    // All of it, but where a quick look is asked for.
+    constexpr int enough_rounds = 21;
+    const int ticks = rounds < enough_rounds ? 3 * rounds : 300;
+    const int settled_after = std::min(ticks - 1, 6);
+    struct Kind {
+        const char* name;
+        Dress dress;
+        std::uint32_t workers;
+    };
+    std::vector<Run> runs;
+    for (const std::uint32_t substeps : {20u, 8u}) {
+        for (const Kind& kind :
+             {Kind{"coupled", Dress::coupled, 1}, Kind{"attached only", Dress::attached, 1},
+              Kind{"side by side", Dress::beside, 1}, Kind{"bodies alone", Dress::none, 1},
+              Kind{"coupled, two workers", Dress::coupled, 2},
+              Kind{"side by side, two workers", Dress::beside, 2}}) {
+            if (substeps == 8 && kind.workers > 1) {
+                continue;
+            }
+            runs.push_back({std::to_string(substeps) + " substeps, " + kind.name,
+                            std::make_unique<DressedCrowd>(kind.dress, substeps, kind.workers)});
+        }
+    }
+    // All take turns, tick by tick.
+    for (int tick = 0; tick < ticks; ++tick) {
+        for (Run& run : runs) {
+            run.tick(tick >= settled_after);
+        }
+    }
+    results.push_back({coupling_name, "ticks", "", static_cast<double>(ticks), ""});
+    results.push_back(
+        {coupling_name, "particles", "", static_cast<double>(runs.front().dressed->particles()), ""});
+    for (const Run& run : runs) {
+        const double mean = run.mean();
+        results.push_back({coupling_name, "whole tick", run.name, mean, "ms", mean / runs.front().mean()});
+    }
+    for (const Run& run : runs) {
+        run.joints.report("joint error", run.name, results);
+        run.attachments.report("attachment error", run.name, results);
+    }
+}
+
+} // namespace lks_bench
