@@ -2,69 +2,14 @@
 // it.
 #include <doctest/doctest.h>
 
-#include <cstdio>
 #include <string>
-#include <vector>
 
-#include "reference/rigid_comparison.h"
-#include "support/bodies.h"
+#include "reference/rigid_bounds.h"
 
 using namespace support;
-using reference::RigidDeviation;
-using reference::RigidScene;
-using reference::Settings;
+using namespace reference;
 
 namespace {
-
-constexpr int second = 60; // in ticks
-
-Settings with_substeps(int substeps) {
-    Settings settings;
-    settings.substeps = substeps;
-    return settings;
-}
-
-// What fixed point may be off by, and how many times further float32 is off at least.
-struct Limits {
-    double metres;
-    double radians;
-    double better_metres;
-};
-
-void check(const std::string& name, const RigidDeviation& d, const Limits& limits) {
-    char line[160];
-    std::snprintf(line, sizeof line, "%-36s fixed %8.1e m %8.1e rad, float32 %8.1e m %8.1e rad", name.c_str(),
-                  d.fixed_point.metres, d.fixed_point.radians, d.single.metres, d.single.radians);
-    MESSAGE(line);
-    CHECK(d.fixed_point.metres <= limits.metres);
-    CHECK(d.fixed_point.radians <= limits.radians);
-    CHECK(d.single.metres >= limits.better_metres * d.fixed_point.metres);
-}
-
-// After one second and after ten.
-void check_run(const std::string& name, RigidScene& scene, const Limits& one, const Limits& ten) {
-    const std::vector<RigidDeviation> d = scene.run({second, 10 * second});
-    check(name + ", 1 s", d[0], one);
-    check(name + ", 10 s", d[1], ten);
-}
-
-std::string substeps_name(int substeps) {
-    return ", " + std::to_string(substeps) + " substeps";
-}
-
-lks_body_def at_rest(const lks_vec3& position) {
-    lks_body_def def = lks_default_body_def();
-    def.transform.position = position;
-    return def;
-}
-
-lks_joint_def joint(std::uint32_t kind, const lks_vec3& point_a, const lks_vec3& point_b) {
-    lks_joint_def def = lks_default_joint_def();
-    def.kind = kind;
-    def.frame_a.position = point_a;
-    def.frame_b.position = point_b;
-    return def;
-}
 
 // Held at one end, level along x; the joint's axis is z turned about x.
 void add_arm(RigidScene& scene, std::uint32_t kind, double degrees) {
@@ -124,7 +69,7 @@ TEST_CASE(
     struct Case {
         int substeps;
         int ratio;
-        Limits limits;
+        RigidBounds bounds;
     };
     // Light links under more than that are stiffened, which the twin does not do.
     for (const Case& c : {Case{8, 1, {6e-8, 1e-6, 1000}}, Case{20, 1, {2e-7, 5e-6, 1000}},
@@ -140,7 +85,7 @@ TEST_CASE(
             above = link;
         }
         check("chain 1:" + std::to_string(c.ratio) + substeps_name(c.substeps) + ", 1 s",
-              scene.run({second}).back(), c.limits);
+              scene.run({second}).back(), c.bounds);
     }
 }
 

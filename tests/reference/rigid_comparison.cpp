@@ -46,12 +46,31 @@ void compare(RigidDistance& distance, const RigidSolver<double>& expected, std::
 
 RigidScene::RigidScene(const Settings& settings) : settings_(settings), world_(world_def(settings)) {}
 
+void RigidScene::add_ground(double static_friction, double dynamic_friction, bool bodies_touch,
+                            const lks_rotation& rotation) {
+    lks_collider_def def = lks_default_collider_def();
+    def.shape = LKS_SHAPE_PLANE;
+    def.static_friction = support::fixed(static_friction);
+    def.dynamic_friction = support::fixed(dynamic_friction);
+    def.transform.rotation = rotation;
+    world_.add(def);
+    model_.planes.push_back(rigid_plane(def));
+    touches_planes_ = true;
+    touches_bodies_ = bodies_touch;
+}
+
 std::size_t RigidScene::add(const lks_body_shape& shape, lks_body_def def) {
     def.never_sleeps = 1;
-    def.filter.mask = 0;
+    if (!touches_planes_) {
+        def.filter.mask = 0;
+    }
+    def.filter.group = touches_bodies_ ? 0 : -1;
+    REQUIRE((!touches_bodies_ || shape.shape == LKS_SHAPE_SPHERE));
     REQUIRE(support::same(shape.transform.position, lks_vec3{})); // rigid_body() knows no other
     ids_.push_back(support::add_body(world_, shape, def.transform.position, def));
     model_.bodies.push_back(rigid_body(def, shape, support::mass_of(world_, ids_.back())));
+    model_.bodies.back().touches_planes = touches_planes_;
+    model_.bodies.back().touches_bodies = touches_bodies_;
     return ids_.size() - 1;
 }
 
@@ -87,6 +106,7 @@ std::vector<RigidDeviation> RigidScene::run(const std::vector<int>& ticks) {
         deviations.push_back(worst);
     }
     REQUIRE(world_.counters().speed_clamps == 0);
+    REQUIRE(world_.counters().lost_contacts == 0);
     return deviations;
 }
 

@@ -26,7 +26,11 @@ class RigidScene {
 public:
     explicit RigidScene(const Settings& settings);
 
-    // One shape with the body's own axes; bodies never touch.
+    // A plane through the origin that is turned so. Bodies that are added from now on touch it, and, if they
+    // are to, each other (spheres only).
+    void add_ground(double static_friction, double dynamic_friction, bool bodies_touch,
+                    const lks_rotation& rotation = lks_transform_identity().rotation);
+    // One shape with the body's own axes.
     std::size_t add(const lks_body_shape& shape, lks_body_def def);
     std::size_t add_anchor(const lks_vec3& position);
     void join(lks_joint_def def, std::size_t a, std::size_t b);
@@ -37,6 +41,8 @@ public:
 private:
     Settings settings_;
     support::World world_;
+    bool touches_planes_ = false;
+    bool touches_bodies_ = false;
     std::vector<lks_body_id> ids_;
     RigidModel model_;
 };

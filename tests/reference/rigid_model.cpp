@@ -31,12 +31,26 @@ Vector inertia_of(const lks_body_shape& shape) {
     return {(e.y * e.y + e.z * e.z) / 3, (e.z * e.z + e.x * e.x) / 3, (e.x * e.x + e.y * e.y) / 3};
 }
 
+RigidShape shape_of(const lks_body_shape& shape) {
+    const bool box = shape.shape == LKS_SHAPE_BOX;
+    return {shape.shape, box ? 0 : support::metres(shape.radius),
+            shape.shape == LKS_SHAPE_CAPSULE ? support::metres(shape.half_length) : 0,
+            box ? support::metres(shape.half_extents) : Vector{}};
+}
+
+double radians(lks_fixed degrees) {
+    return support::metres(degrees) * (std::acos(-1.0) / 180);
+}
+
 } // namespace
 
 RigidBody rigid_body(const lks_body_def& def, const lks_body_shape& shape, double mass) {
     RigidBody body;
     body.position = support::metres(def.transform.position);
     body.orientation = rotation_of(def.transform.rotation);
+    body.shape = shape_of(shape);
+    body.surface = {support::metres(def.static_friction), support::metres(def.dynamic_friction),
+                    support::metres(def.restitution)};
     if (def.kind == LKS_BODY_DYNAMIC) {
         body.mass = mass;
         body.inertia = inertia_of(shape) * mass;
@@ -53,7 +67,17 @@ RigidJoint rigid_joint(const lks_joint_def& def, std::size_t a, std::size_t b) {
             support::metres(def.frame_a.position),
             support::metres(def.frame_b.position),
             rotation_of(def.frame_a.rotation),
-            rotation_of(def.frame_b.rotation)};
+            rotation_of(def.frame_b.rotation),
+            radians(def.swing_limit),
+            radians(def.swing_limit_z < 0 ? def.swing_limit : def.swing_limit_z),
+            radians(def.twist_min),
+            radians(def.twist_max)};
+}
+
+RigidPlane rigid_plane(const lks_collider_def& def) {
+    return {support::metres(def.transform.position),
+            rotation_of(def.transform.rotation),
+            {support::metres(def.static_friction), support::metres(def.dynamic_friction), 0}};
 }
 
 } // namespace reference

@@ -1,4 +1,4 @@
-// What a reference solver of rigid bodies simulates: bodies and joints in plain numbers.
+// What a reference solver of rigid bodies simulates: bodies, joints and planes in plain numbers.
 #pragma once
 
 #include <lockstitch/lockstitch.h>
@@ -15,6 +15,19 @@ struct Rotation {
     double x = 0, y = 0, z = 0, w = 1; // a unit quaternion
 };
 
+struct RigidSurface {
+    double static_friction = 0;
+    double dynamic_friction = 0;
+    double restitution = 0;
+};
+
+struct RigidShape {
+    std::uint32_t kind; // lks_shape_kind: sphere, capsule or box
+    double radius;      // 0: a box
+    double half_length; // of a capsule, along y
+    support::Vector half_extents;
+};
+
 struct RigidBody {
     double mass = 0;         // 0: an anchor, which stays where it is
     support::Vector inertia; // about its own axes
@@ -22,6 +35,10 @@ struct RigidBody {
     Rotation orientation;
     support::Vector velocity;
     support::Vector spin; // in world axes
+    RigidShape shape;
+    RigidSurface surface;
+    bool touches_planes = false;
+    bool touches_bodies = false; // spheres only
 };
 
 struct RigidJoint {
@@ -29,16 +46,28 @@ struct RigidJoint {
     std::size_t a, b;
     support::Vector point_a, point_b; // from the centres of mass, in the bodies' axes
     Rotation frame_a, frame_b;
+    // Radians; π, and -π: none.
+    double swing_limit, swing_limit_z;
+    double twist_min, twist_max;
 };
 
-// Joints form one tree and stand in its order, from the body of the lowest index on.
+struct RigidPlane {
+    support::Vector position;
+    Rotation orientation; // local y is its normal
+    RigidSurface surface;
+};
+
+// Joints form trees and stand in their order, from the body of the lowest index on.
 struct RigidModel {
     std::vector<RigidBody> bodies;
     std::vector<RigidJoint> joints;
+    std::vector<RigidPlane> planes;
 };
 
-// Of one shape with the body's own axes and centre. `mass` counts, whatever the density.
+// Of one shape with the body's own axes and centre, which touches nothing. `mass` counts, whatever the
+// density.
 RigidBody rigid_body(const lks_body_def& def, const lks_body_shape& shape, double mass);
 RigidJoint rigid_joint(const lks_joint_def& def, std::size_t a, std::size_t b);
+RigidPlane rigid_plane(const lks_collider_def& def);
 
 } // namespace reference

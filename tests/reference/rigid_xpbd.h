@@ -1,23 +1,28 @@
-// Rigid bodies and their joints in floating point: the twin that the integer solver is measured against.
+// Rigid bodies, their joints with limits, and contacts in floating point: the twin that the integer solver is
+// measured against.
 //
 // The same substeps in the same order: the implicit midpoint rule for spins, Cayley's map, the points of all
 // joints by one linear solve with the velocities that follow, what hinges and fixed joints don't let turn by
-// a block each, carried pushes, and errors undone without speed. What differs:
-//   - the points' system is one dense matrix, where the SDK eliminates it along the tree;
-//   - pushes are in kg·m, turns in radians: no shares, no units of length, no clamps;
-//   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing.
-// There are no contacts, limits, motors, soft joints, damping and sleep.
+// a block each, limits and contacts by rows whose pushes only push, carried pushes with a factor for each
+// figure, impacts before the prediction, and errors undone without speed. What differs:
+//   - the points' system is one dense matrix, where the SDK eliminates it along the trees;
+//   - pushes are in kg·m, turns in radians: no shares, no units of length, no clamps; directions are as exact
+//     as the numbers, where the SDK has 30 fraction bits;
+//   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing;
+//   - the figures' factors are as exact as the numbers, where the SDK has motions of 26 fraction bits.
+// There are no contacts but of spheres with each other and of bodies with planes, no motors, friction of
+// joints, soft joints, loops, damping, sleep, and nothing that covers more than its own thickness in a tick.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <utility>
+#include <numeric>
 #include <vector>
 
-#include "reference/rigid_numbers.h"
-#include "reference/symmetric_system.h"
+#include "reference/rigid_free_motion.h"
+#include "reference/rigid_joint.h"
+#include "reference/rigid_search.h"
 
 namespace reference {
 
@@ -25,248 +30,162 @@ template <typename Scalar>
 class RigidSolver {
 public:
     using Vec = Vector3<Scalar>;
-    using Quat = Quaternion<Scalar>;
 
     RigidSolver(const RigidModel& model, const Settings& settings)
         : settings_(settings), rate_(static_cast<Scalar>(settings.tick_rate_hz * settings.substeps)),
-          gravity_(settings.gravity) {
+          motion_(Vec(settings.gravity), rate_), search_(model), body_count_(model.bodies.size()) {
         const support::Vector& g = settings.gravity;
         const double rate = settings.tick_rate_hz * settings.substeps;
         const double gravity_speed = (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)) / rate;
-        least_motion_ = static_cast<Scalar>(2 * (4 * gravity_speed + 0.01) / rate);
+        least_approach_ = static_cast<Scalar>(4 * gravity_speed + 0.01);
+        least_motion_ = 2 * least_approach_ / rate_;
         for (const RigidBody& from : model.bodies) {
             bodies_.emplace_back(from);
+        }
+        for (const RigidPlane& from : model.planes) {
+            RigidBody still;
+            still.position = from.position;
+            still.orientation = from.orientation;
+            bodies_.emplace_back(still);
         }
         for (const RigidJoint& from : model.joints) {
             joints_.emplace_back(from);
         }
+        find_figures();
     }
 
     void tick(int count = 1) {
         for (int i = 0; i < count; ++i) {
             for (Body& body : bodies_) {
                 body.rotation = body.orientation.matrix();
+                body.follow_rotation();
             }
+            contacts_ = search_.find(bodies_, static_cast<Scalar>(settings_.tick_rate_hz), contacts_);
             for (int k = 0; k < settings_.substeps; ++k) {
                 substep();
             }
         }
     }
 
-    std::size_t size() const { return bodies_.size(); }
+    std::size_t size() const { return body_count_; }
     support::Vector position(std::size_t body) const { return bodies_[body].position.widened(); }
     Rotation orientation(std::size_t body) const {
-        const Quat& q = bodies_[body].orientation;
+        const Quaternion<Scalar>& q = bodies_[body].orientation;
         return {q.x, q.y, q.z, q.w};
     }
 
 private:
-    struct Body {
-        explicit Body(const RigidBody& from)
-            : moves(from.mass > 0), mass(static_cast<Scalar>(from.mass)), inertia(from.inertia),
-              position(from.position), orientation(quaternion_of<Scalar>(from.orientation)),
-              velocity(from.velocity), spin(from.spin), rotation(orientation.matrix()) {
-            if (moves) {
-                inverse_mass = 1 / mass;
-                inverse_inertia = {1 / inertia.x, 1 / inertia.y, 1 / inertia.z};
+    using Body = MovingBody<Scalar>;
+    using Joint = HeldJoint<Scalar>;
+    using Contact = BodyContact<Scalar>;
+    using Move = BodyMove<Scalar>;
+
+    // Bodies that joints hold together have the number of one of them.
+    void find_figures() {
+        figures_.resize(bodies_.size());
+        std::iota(figures_.begin(), figures_.end(), std::size_t{0});
+        for (const Joint& joint : joints_) {
+            if (bodies_[joint.a].moves && bodies_[joint.b].moves) {
+                const std::size_t from = figures_[joint.b];
+                std::replace(figures_.begin(), figures_.end(), from, figures_[joint.a]);
             }
-            round = from.inertia.x == from.inertia.y && from.inertia.y == from.inertia.z;
         }
+    }
 
-        bool moves;
-        bool round = false;
-        Scalar mass;
-        Scalar inverse_mass = 0;
-        Vec inertia, inverse_inertia; // about its own axes
-        Vec position;
-        Quat orientation;
-        Vec velocity, spin;
-        Matrix<Scalar> rotation; // of the orientation
-        // Of the substep.
-        Matrix<Scalar> world_inverse{}; // at the predicted pose
-        Vec start_position, predicted_position, uncarried_position;
-        Quat start_orientation, predicted_orientation, uncarried_orientation;
-        Vec force, torque;
-    };
+    // Of two figures.
+    bool is_shared(const Contact& contact) const {
+        return bodies_[contact.a].moves && bodies_[contact.b].moves &&
+               figures_[contact.a] != figures_[contact.b];
+    }
+    std::size_t figure_of(const Joint& joint) const {
+        return figures_[bodies_[joint.a].moves ? joint.a : joint.b];
+    }
+    bool belongs_to(const Contact& contact, std::size_t figure) const {
+        return (bodies_[contact.a].moves && figures_[contact.a] == figure) ||
+               (bodies_[contact.b].moves && figures_[contact.b] == figure);
+    }
 
-    struct Joint {
-        explicit Joint(const RigidJoint& from)
-            : kind(from.kind), a(from.a), b(from.b), point_a(from.point_a), point_b(from.point_b),
-              frame_a(quaternion_of<Scalar>(from.frame_a)), frame_b(quaternion_of<Scalar>(from.frame_b)) {}
-
-        std::uint32_t kind;
-        std::size_t a, b;
-        Vec point_a, point_b;
-        Quat frame_a, frame_b;
-        Vec turn; // b against a: carried from substep to substep
-        // Of the substep.
-        Vec start, turn_start;
-        Vec lever_a, lever_b; // at the predicted pose
-        SymmetricSystem<Scalar> turning;
-    };
+    // use(joint, body a, body b), and the same of contacts.
+    template <typename Use>
+    void for_each_joint(const Use& use) {
+        for (Joint& joint : joints_) {
+            use(joint, bodies_[joint.a], bodies_[joint.b]);
+        }
+    }
+    template <typename Use>
+    void for_each_contact(const Use& use) {
+        for (Contact& contact : contacts_) {
+            use(contact, bodies_[contact.a], bodies_[contact.b]);
+        }
+    }
 
     void substep() {
-        for (Joint& joint : joints_) {
-            joint.start = offset(joint);
-            joint.turn_start = turned_apart(joint);
-        }
+        for_each_contact([](Contact& contact, Body& a, Body& b) { contact.begin(a, b); });
+        for_each_joint([](Joint& joint, Body& a, Body& b) { joint.begin(a, b); });
+        strike_all();
         for (Body& body : bodies_) {
-            predict(body);
+            motion_.predict(body);
         }
         factor_points();
         carry_pushes_on();
         for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
-            for (std::size_t i = 0; i < joints_.size(); ++i) {
-                project_turn(joints_[i]);
-            }
-            solve_points(true);
-            for (std::size_t i = joints_.size(); i-- > 0;) {
-                project_turn(joints_[i]);
-            }
-            solve_points(true);
+            sweep();
         }
         for (Body& body : bodies_) {
-            finish(body);
+            motion_.finish(body);
+        }
+        for_each_contact(
+            [this](Contact& contact, Body& a, Body& b) { contact.restore_speed(a, b, least_approach_); });
+        for (const bool shared : {false, true}) {
+            for_each_contact([&](Contact& contact, Body& a, Body& b) {
+                if (is_shared(contact) == shared) {
+                    contact.undo_overlap(a, b, rate_);
+                }
+            });
         }
         undo_errors();
     }
 
-    // I⁻¹(IΩ × hΩ/2), in the body's axes; none where it would be more than a quarter of Ω.
-    Vec gyroscopic_change(const Body& body, const Vec& spin) const {
-        const Vec torque = cross(products(body.inertia, spin), spin * (Scalar(0.5) / rate_));
-        const Vec change = products(body.inverse_inertia, torque);
-        return greatest(change) > greatest(spin) / 4 ? Vec{} : change;
-    }
-
-    bool turns_freely(const Body& body) const {
-        return body.moves && !body.round && greatest(body.spin) >= Scalar(1) / 1024;
-    }
-
-    void predict(Body& body) {
-        body.start_position = body.position;
-        body.start_orientation = body.orientation;
-        if (body.moves) {
-            body.velocity = body.velocity + gravity_ * (1 / rate_);
-            if (turns_freely(body)) {
-                // Ω_mid = Ω + I⁻¹(IΩ_mid × hΩ_mid/2)
-                const Vec spin = body.rotation.back(body.spin);
-                Vec change;
-                for (int i = 0; i < 10; ++i) {
-                    change = gyroscopic_change(body, spin + change);
-                }
-                body.spin = body.spin + body.rotation * change;
-            }
-            body.position = body.position + body.velocity * (1 / rate_);
-            body.orientation = body.orientation.moved(body.spin * (Scalar(0.5) / rate_)).normalised();
-        }
-        body.rotation = body.orientation.matrix();
-        body.predicted_position = body.position;
-        body.predicted_orientation = body.orientation;
-        body.world_inverse = body.rotation.around(body.inverse_inertia);
-    }
-
-    void finish(Body& body) {
-        if (!body.moves) {
-            return;
-        }
-        body.velocity = body.velocity + (body.position - body.predicted_position) * rate_;
-        if (!(body.orientation == body.predicted_orientation)) {
-            body.orientation = body.orientation.normalised();
-            body.rotation = body.orientation.matrix();
-            body.spin = half_turn_between(body.start_orientation, body.orientation) * (2 * rate_);
-        }
-        if (turns_freely(body)) {
-            // From the middle of the substep to its end.
-            const Vec change = gyroscopic_change(body, body.rotation.back(body.spin));
-            body.spin = body.spin + body.rotation * change;
-        }
-    }
-
-    // By an angle in world axes. Small turns leave the quaternion's length for the end of the substep.
-    static void turn_body(Body& body, const Vec& angle) {
-        const Vec half_turn = angle * Scalar(0.5);
-        body.orientation = body.orientation.moved(half_turn);
-        if (greatest(half_turn) > Scalar(1) / 256) {
-            body.orientation = body.orientation.normalised();
-        }
-        body.rotation = body.orientation.matrix();
-    }
-
-    // b against a, by a turning push.
-    void turn_apart(const Joint& joint, const Vec& push) {
-        turn_body(bodies_[joint.a], bodies_[joint.a].world_inverse * push * Scalar(-1));
-        turn_body(bodies_[joint.b], bodies_[joint.b].world_inverse * push);
-    }
-
-    // How far b's point is from a's.
-    Vec offset(const Joint& joint) const {
-        const Body& a = bodies_[joint.a];
-        const Body& b = bodies_[joint.b];
-        return b.position - a.position + b.rotation * joint.point_b - a.rotation * joint.point_a;
-    }
-
-    // What hinges and fixed joints don't let turn: the sine between the axes, or twice the sine of half the
-    // angle between the frames.
-    Vec turned_apart(const Joint& joint) const {
-        const Body& a = bodies_[joint.a];
-        const Body& b = bodies_[joint.b];
-        if (joint.kind == LKS_JOINT_HINGE) {
-            return cross(a.rotation * joint.frame_a.matrix().column(1),
-                         b.rotation * joint.frame_b.matrix().column(1));
-        }
-        if (joint.kind == LKS_JOINT_FIXED) {
-            const Quat q = (a.orientation * joint.frame_a).conjugate() * (b.orientation * joint.frame_b);
-            const Vec sine = q.vector() * Scalar(q.w < 0 ? -2 : 2);
-            return a.rotation * (joint.frame_a.matrix() * sine);
-        }
-        return {};
-    }
-
-    Vec hinge_axis(const Joint& joint) const {
-        return bodies_[joint.a].rotation * joint.frame_a.matrix().column(1);
-    }
-
-    // What turning pushes do, in all directions. Hinges have a number of its own along their axis.
-    void factor_turning(Joint& joint) {
-        const Vec axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        const Vec u = hinge_axis(joint);
-        const auto across = [&](const Vec& v) {
-            return joint.kind == LKS_JOINT_HINGE ? v - u * u.dot(v) : v;
-        };
-        const auto turned = [&](const Vec& push) {
-            return bodies_[joint.a].world_inverse * push + bodies_[joint.b].world_inverse * push;
-        };
-        const Scalar along = joint.kind == LKS_JOINT_HINGE ? greatest(turned({1, 1, 1})) : Scalar(0);
-        std::vector<Scalar> matrix(9);
-        for (std::size_t row = 0; row < 3; ++row) {
-            for (std::size_t column = 0; column <= row; ++column) {
-                matrix[3 * row + column] = across(axes[row]).dot(turned(across(axes[column]))) +
-                                           along * u.dot(axes[row]) * u.dot(axes[column]);
+    // An impact may cause the next one: forward and back, until nothing strikes any more.
+    void strike_all() {
+        bool again = true;
+        for (int pass = 0; pass < 8 && again; ++pass) {
+            again = false;
+            for (std::size_t i = 0; i < contacts_.size(); ++i) {
+                Contact& contact = contacts_[pass % 2 == 0 ? i : contacts_.size() - 1 - i];
+                again =
+                    contact.strike(bodies_[contact.a], bodies_[contact.b], least_approach_, rate_) || again;
             }
         }
-        joint.turning.factor(3, std::move(matrix));
     }
 
-    // The push that turns it back.
-    Vec turn_back(const Joint& joint, const Vec& error) {
-        std::vector<Scalar> push{-error.x, -error.y, -error.z};
-        joint.turning.solve(push);
-        turn_apart(joint, {push[0], push[1], push[2]});
-        return {push[0], push[1], push[2]};
+    void sweep() {
+        for_each_joint([](Joint& joint, Body& a, Body& b) { joint.project_turn(a, b); });
+        solve_points(true);
+        project_contacts(false, false);
+        project_contacts(true, false);
+        project_contacts(true, true);
+        project_contacts(false, true);
+        for (std::size_t i = joints_.size(); i-- > 0;) {
+            joints_[i].project_turn(bodies_[joints_[i].a], bodies_[joints_[i].b]);
+        }
+        solve_points(true);
     }
 
-    void project_turn(Joint& joint) {
-        joint.turn = joint.turn + turn_back(joint, turned_apart(joint) - joint.turn_start);
+    void project_contacts(bool shared, bool back) {
+        for (std::size_t k = 0; k < contacts_.size(); ++k) {
+            Contact& contact = contacts_[back ? contacts_.size() - 1 - k : k];
+            if (is_shared(contact) == shared) {
+                contact.project(bodies_[contact.a], bodies_[contact.b], back);
+            }
+        }
     }
 
     // J·M⁻¹·Jᵀ of all joints' points, at the predicted pose.
     void factor_points() {
         const std::size_t size = 3 * joints_.size();
         std::vector<Scalar> matrix(size * size);
-        for (Joint& joint : joints_) {
-            joint.lever_a = bodies_[joint.a].rotation * joint.point_a;
-            joint.lever_b = bodies_[joint.b].rotation * joint.point_b;
-        }
+        for_each_joint([](Joint& joint, Body& a, Body& b) { joint.place_levers(a, b); });
         const Vec axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         for (std::size_t column = 0; column < size; ++column) {
             clear_pushes();
@@ -304,86 +223,150 @@ private:
 
     // To where they were at the substep's start, or together.
     void solve_points(bool to_start) {
-        std::vector<Scalar> pushes;
-        for (const Joint& joint : joints_) {
-            const Vec error = to_start ? offset(joint) - joint.start : offset(joint);
-            pushes.insert(pushes.end(), {-error.x, -error.y, -error.z});
+        if (joints_.empty()) {
+            return;
         }
+        std::vector<Scalar> pushes;
+        for_each_joint([&](const Joint& joint, const Body& a, const Body& b) {
+            const Vec error = to_start ? joint.offset(a, b) - joint.start : joint.offset(a, b);
+            pushes.insert(pushes.end(), {-error.x, -error.y, -error.z});
+        });
         points_.solve(pushes);
         clear_pushes();
         for (std::size_t i = 0; i < joints_.size(); ++i) {
             add_push(joints_[i], {pushes[3 * i], pushes[3 * i + 1], pushes[3 * i + 2]});
         }
         for (Body& body : bodies_) {
-            if (body.moves && !joints_.empty()) {
-                body.position = body.position + body.force * body.inverse_mass;
-                turn_body(body, body.world_inverse * body.torque);
-            }
+            Move{body.force * body.inverse_mass, body.world_inverse * body.torque}.apply_to(body);
         }
     }
 
     void carry_pushes_on() {
-        for (Body& body : bodies_) {
-            body.uncarried_position = body.position;
-            body.uncarried_orientation = body.orientation;
-        }
-        for (Joint& joint : joints_) {
-            if (joint.kind == LKS_JOINT_BALL) {
-                continue;
-            }
-            factor_turning(joint);
-            if (joint.kind == LKS_JOINT_HINGE) {
-                const Vec u = hinge_axis(joint);
-                joint.turn = joint.turn - u * u.dot(joint.turn);
-            }
-            turn_apart(joint, joint.turn);
-        }
+        for_each_joint([](Joint& joint, Body& a, Body& b) { joint.turn_again(a, b); });
+        for_each_contact([](Contact& contact, const Body& a, const Body& b) { contact.make_rows(a, b); });
+        for_each_contact([](const Contact& contact, Body& a, Body& b) {
+            Move to_a, to_b;
+            contact.add_pushes(true, to_a);
+            contact.add_pushes(false, to_b);
+            to_a.apply_to(a);
+            to_b.apply_to(b);
+        });
         solve_points(true);
-        const Scalar share = share_to_add();
-        if (share != 0) {
-            for (Joint& joint : joints_) {
-                const Vec more = joint.turn * share;
-                joint.turn = joint.turn + more;
-                turn_apart(joint, more);
-            }
+        if (scale_carried_pushes()) {
             solve_points(true);
         }
     }
 
-    // What of the carried pushes is missing to the least energy: −G/Q; none where next to nothing is gained.
-    Scalar share_to_add() const {
-        Scalar g = 0, q = 0, mass = 0;
-        for (const Body& body : bodies_) {
-            const auto turn_since = [&](const Quat& then) {
-                const Quat d = then.conjugate() * body.orientation;
-                return d.vector() * Scalar(d.w < 0 ? -2 : 2);
-            };
-            const Vec pushed = body.position - body.uncarried_position;
-            const Vec turned = turn_since(body.uncarried_orientation);
-            const Vec turned_mass = products(body.inertia, turned);
-            g += body.mass * pushed.dot(body.position - body.start_position) +
-                 turned_mass.dot(turn_since(body.start_orientation));
-            q += body.mass * pushed.dot(pushed) + turned_mass.dot(turned);
-            mass += body.mass;
+    // Figure by figure. Where one has been changed those that touch it think again.
+    bool scale_carried_pushes() {
+        std::vector<Scalar> shares(bodies_.size());
+        for (std::size_t figure = 0; figure < bodies_.size(); ++figure) {
+            shares[figure] = share_to_add(figure);
         }
-        if (joints_.empty() || !(q > 0)) {
+        std::vector<bool> changed(bodies_.size());
+        bool any = false;
+        for (std::size_t figure = 0; figure < bodies_.size(); ++figure) {
+            if (knows_changed(figure, changed)) {
+                shares[figure] = share_to_add(figure);
+            }
+            if (shares[figure] == 0) {
+                continue;
+            }
+            any = true;
+            changed[figure] = true;
+            for_each_joint([&](Joint& joint, Body& a, Body& b) {
+                if (figure_of(joint) == figure) {
+                    joint.carry_more(a, b, shares[figure]);
+                }
+            });
+            for (const bool shared : {false, true}) {
+                for_each_contact([&](Contact& contact, Body& a, Body& b) {
+                    if (belongs_to(contact, figure) && is_shared(contact) == shared) {
+                        contact.carry_more(a, b, shares[figure]);
+                        changed[figures_[contact.a]] = changed[figures_[contact.a]] || shared;
+                        changed[figures_[contact.b]] = changed[figures_[contact.b]] || shared;
+                    }
+                });
+            }
+        }
+        return any;
+    }
+
+    bool knows_changed(std::size_t figure, const std::vector<bool>& changed) const {
+        return changed[figure] || std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact& c) {
+                   return is_shared(c) && belongs_to(c, figure) &&
+                          (changed[figures_[c.a]] || changed[figures_[c.b]]);
+               });
+    }
+
+    // Products of motions in six dimensions with the mass matrix.
+    struct Energies {
+        Scalar g = 0, q = 0;
+
+        // `part`: of its mass.
+        void add(const Body& body, Scalar part, const Vec& pushed, const Vec& turned) {
+            const Scalar mass = body.mass * part;
+            const Vec turned_mass = products(body.inertia, turned) * part;
+            g += mass * pushed.dot(body.position - body.start_position) +
+                 turned_mass.dot(turn_since(body, body.start_orientation));
+            q += mass * pushed.dot(pushed) + turned_mass.dot(turned);
+        }
+    };
+
+    // In the body's axes.
+    static Vec turn_since(const Body& body, const Quaternion<Scalar>& then) {
+        const Quaternion<Scalar> d = then.conjugate() * body.orientation;
+        return d.vector() * Scalar(d.w < 0 ? -2 : 2);
+    }
+
+    // What of a figure's carried pushes is missing to the least energy: −G/Q; none where next to nothing is
+    // gained.
+    Scalar share_to_add(std::size_t figure) const {
+        Energies energies;
+        Scalar mass = 0;
+        Scalar heaviest = 0;
+        for (std::size_t i = 0; i < body_count_; ++i) {
+            const Body& body = bodies_[i];
+            if (body.moves && figures_[i] == figure) {
+                energies.add(body, 1, body.position - body.uncarried_position,
+                             turn_since(body, body.uncarried_orientation));
+                mass += body.mass;
+                heaviest = std::max(heaviest, body.mass);
+            }
+        }
+        // What the contacts with other figures do to these. None counts as heavier than the figure's own.
+        for (const Contact& contact : contacts_) {
+            if (is_shared(contact) && belongs_to(contact, figure)) {
+                const bool to_a = figures_[contact.a] != figure;
+                const Body& neighbour = bodies_[to_a ? contact.a : contact.b];
+                Move move;
+                contact.add_pushes(to_a, move);
+                energies.add(neighbour, std::min(heaviest / neighbour.mass, Scalar(1)), move.shift,
+                             neighbour.rotation.back(move.angle));
+            }
+        }
+        if (!(energies.q > 0)) {
             return 0;
         }
-        const Scalar share = std::clamp(-g / q, Scalar(-1), Scalar(1));
-        const bool worth =
-            std::abs(share) >= Scalar(0.125) && std::abs(g * share) >= least_motion_ * least_motion_ * mass;
+        const Scalar share = std::clamp(-energies.g / energies.q, Scalar(-1), Scalar(1));
+        const bool worth = std::abs(share) >= Scalar(0.125) &&
+                           std::abs(energies.g * share) >= least_motion_ * least_motion_ * mass;
         return worth ? share : 0;
     }
 
-    // Without giving speed: turns first, then the points.
+    // Without giving speed: turns first, then the points. A limit that turns one bone back on its joint takes
+    // the points along: some rounds bring both right.
     void undo_errors() {
-        for (const Joint& joint : joints_) {
-            turn_back(joint, turned_apart(joint));
-            for (const std::size_t body : {joint.a, joint.b}) {
-                bodies_[body].orientation = bodies_[body].orientation.normalised();
-            }
+        bool far_off = !joints_.empty();
+        for (int round = 0; round < 6 && far_off; ++round) {
+            far_off = false;
+            for_each_joint([&](const Joint& joint, Body& a, Body& b) {
+                far_off = joint.undo_turn(a, b) || far_off;
+                a.orientation = a.orientation.normalised();
+                b.orientation = b.orientation.normalised();
+            });
+            solve_points(false);
         }
-        solve_points(false);
         for (Body& body : bodies_) {
             body.orientation = body.orientation.normalised();
         }
@@ -391,10 +374,15 @@ private:
 
     Settings settings_;
     Scalar rate_; // substeps a second
-    Vec gravity_;
+    FreeMotion<Scalar> motion_;
+    ContactSearch<Scalar> search_;
+    std::size_t body_count_;
+    Scalar least_approach_;
     Scalar least_motion_;
-    std::vector<Body> bodies_;
+    std::vector<Body> bodies_; // planes behind them
+    std::vector<std::size_t> figures_;
     std::vector<Joint> joints_;
+    std::vector<Contact> contacts_;
     SymmetricSystem<Scalar> points_;
 };
 

@@ -1,0 +1,110 @@
+// A body of the rigid reference solver, in any number type, and what pushes do to it.
+#pragma once
+
+#include <cstddef>
+
+#include "reference/rigid_numbers.h"
+
+namespace reference {
+
+template <typename Scalar>
+struct MovingBody {
+    using Vec = Vector3<Scalar>;
+    using Quat = Quaternion<Scalar>;
+
+    explicit MovingBody(const RigidBody& from)
+        : moves(from.mass > 0), mass(static_cast<Scalar>(from.mass)), inertia(from.inertia),
+          position(from.position), orientation(quaternion_of<Scalar>(from.orientation)),
+          velocity(from.velocity), spin(from.spin), rotation(orientation.matrix()) {
+        if (moves) {
+            inverse_mass = 1 / mass;
+            inverse_inertia = {1 / inertia.x, 1 / inertia.y, 1 / inertia.z};
+        }
+        round = from.inertia.x == from.inertia.y && from.inertia.y == from.inertia.z;
+    }
+
+    bool moves;
+    bool round = false;
+    Scalar mass;
+    Scalar inverse_mass = 0;
+    Vec inertia, inverse_inertia; // about its own axes
+    Vec position;
+    Quat orientation;
+    Vec velocity, spin;
+    Matrix<Scalar> rotation; // of the orientation
+    // Of the substep.
+    Matrix<Scalar> world_inverse{}; // at the predicted pose
+    Vec start_position, predicted_position, uncarried_position;
+    Quat start_orientation, predicted_orientation, uncarried_orientation;
+    Vec force, torque;
+
+    void follow_rotation() { world_inverse = rotation.around(inverse_inertia); }
+    Vec velocity_at(const Vec& lever) const { return velocity + cross(spin, lever); }
+
+    // By an angle in world axes. Small turns leave the quaternion's length for the end of the substep.
+    void turn(const Vec& angle) {
+        const Vec half_turn = angle * Scalar(0.5);
+        orientation = orientation.moved(half_turn);
+        if (greatest(half_turn) > Scalar(1) / 256) {
+            orientation = orientation.normalised();
+        }
+        rotation = orientation.matrix();
+    }
+};
+
+// What one or several pushes do to a body, added up and then applied together.
+template <typename Scalar>
+struct BodyMove {
+    Vector3<Scalar> shift, angle;
+
+    void apply_to(MovingBody<Scalar>& body) const {
+        if (body.moves) {
+            body.position = body.position + shift;
+            body.turn(angle);
+        }
+    }
+};
+
+// A push along a direction, b forward and a back, each at a lever from its centre of mass.
+template <typename Scalar>
+class PushRow {
+public:
+    using Vec = Vector3<Scalar>;
+    using Body = MovingBody<Scalar>;
+
+    PushRow() = default;
+    PushRow(const Vec& direction, const Body& a, const Vec& lever_a, const Body& b, const Vec& lever_b)
+        : direction_(direction), mass_a_(a.inverse_mass), mass_b_(b.inverse_mass),
+          turn_a_(a.world_inverse * cross(lever_a, direction)),
+          turn_b_(b.world_inverse * cross(lever_b, direction)),
+          weight_(mass_a_ + mass_b_ + cross(lever_a, direction).dot(turn_a_) +
+                  cross(lever_b, direction).dot(turn_b_)) {}
+
+    // What it takes to part them by this length, in kg·m; or by this speed, in N·s.
+    Scalar push_for(Scalar length) const { return length / weight_; }
+    void add(Scalar push, BodyMove<Scalar>& a, BodyMove<Scalar>& b) const {
+        add(push, true, a);
+        add(push, false, b);
+    }
+    void add(Scalar push, bool to_a, BodyMove<Scalar>& move) const {
+        const Scalar p = to_a ? -push : push;
+        move.shift = move.shift + direction_ * (p * (to_a ? mass_a_ : mass_b_));
+        move.angle = move.angle + (to_a ? turn_a_ : turn_b_) * p;
+    }
+    void accelerate(Scalar impulse, Body& a, Body& b) const {
+        BodyMove<Scalar> by_a, by_b;
+        add(impulse, by_a, by_b);
+        a.velocity = a.velocity + by_a.shift;
+        a.spin = a.spin + by_a.angle;
+        b.velocity = b.velocity + by_b.shift;
+        b.spin = b.spin + by_b.angle;
+    }
+
+private:
+    Vec direction_;
+    Scalar mass_a_ = 0, mass_b_ = 0;
+    Vec turn_a_, turn_b_;
+    Scalar weight_ = 1;
+};
+
+} // namespace reference

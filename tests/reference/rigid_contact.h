@@ -1,0 +1,297 @@
+// Contacts of the rigid reference solver: of spheres, capsules and boxes with planes, and of spheres with
+// each other. The same rows in the same order as sdk/src/rigid/contact.h.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "reference/rigid_body.h"
+
+namespace reference {
+
+template <typename Scalar>
+struct ContactPoint {
+    using Vec = Vector3<Scalar>;
+
+    std::uint32_t feature = 0;
+    Vec core_a, core_b; // in the frames of the bodies
+    // kg·m: carried from substep to substep.
+    Scalar push = 0;
+    std::array<Scalar, 2> rub{};
+    // Of the substep.
+    Vec material_a, material_b; // of the surfaces, in the frames of the bodies
+    Vec start, core_start;      // b's against a's at its beginning
+    Scalar separation = 0;
+    Scalar approach = 0;
+    bool active = false;
+    PushRow<Scalar> along;
+    std::array<PushRow<Scalar>, 2> across;
+};
+
+template <typename Scalar>
+class BodyContact {
+public:
+    using Vec = Vector3<Scalar>;
+    using Body = MovingBody<Scalar>;
+    using Point = ContactPoint<Scalar>;
+    using Move = BodyMove<Scalar>;
+
+    std::size_t a = 0, b = 0; // bodies, planes behind them
+    Scalar radius_a = 0, radius_b = 0;
+    Scalar static_friction = 0, dynamic_friction = 0, restitution = 0;
+    Vec normal; // from a to b
+    std::vector<Point> points;
+
+    // Points take over the pushes of the tick before: of the same feature, or else of the nearest one that is
+    // left.
+    void take_pushes(std::vector<Point> old) {
+        std::vector<bool> known;
+        for (Point& point : points) {
+            const auto same = [&](const Point& p) { return p.feature == point.feature; };
+            known.push_back(take(old, std::find_if(old.begin(), old.end(), same), point));
+        }
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!known[i]) {
+                take_nearest(old, points[i]);
+            }
+        }
+    }
+
+    void begin(const Body& body_a, const Body& body_b) {
+        span();
+        for (Point& point : points) {
+            const Levers levers = levers_now(point, body_a, body_b);
+            point.material_a = body_a.rotation.back(levers.a);
+            point.material_b = body_b.rotation.back(levers.b);
+            point.start = apart(body_a, point.material_a, body_b, point.material_b);
+            point.core_start = apart(body_a, point.core_a, body_b, point.core_b);
+            point.separation = normal.dot(body_b.position - body_a.position + levers.b - levers.a);
+            point.approach = closing_speed(levers, body_a, body_b);
+            point.active = false;
+        }
+    }
+
+    // An impact of single points, before the prediction. True where there was one.
+    bool strike(Body& body_a, Body& body_b, Scalar least_approach, Scalar rate) {
+        if (restitution == 0 || points.size() != 1) {
+            return false;
+        }
+        const Levers levers = levers_now(points[0], body_a, body_b);
+        const Scalar approach = closing_speed(levers, body_a, body_b);
+        if (approach <= least_approach || points[0].separation > approach / rate) {
+            return false;
+        }
+        const PushRow<Scalar> row(normal, body_a, levers.a, body_b, levers.b);
+        row.accelerate(row.push_for(approach * (1 + restitution)), body_a, body_b);
+        return true;
+    }
+
+    void make_rows(const Body& body_a, const Body& body_b) {
+        Levers sum;
+        active_count_ = 0;
+        for (Point& point : points) {
+            point.active = point.push != 0 || gap_now(point, body_a, body_b) < Scalar(0.01);
+            if (!point.active) {
+                point.push = 0;
+                point.rub = {};
+                continue;
+            }
+            const Levers levers = levers_now(point, body_a, body_b);
+            sum = {sum.a + levers.a, sum.b + levers.b};
+            ++active_count_;
+            point.along = PushRow<Scalar>(normal, body_a, levers.a, body_b, levers.b);
+            for (std::size_t t = 0; t < 2; ++t) {
+                point.across[t] = PushRow<Scalar>(across_[t], body_a, levers.a, body_b, levers.b);
+            }
+        }
+        if (active_count_ > 1) {
+            const Scalar share = 1 / static_cast<Scalar>(active_count_);
+            middle_ = PushRow<Scalar>(normal, body_a, sum.a * share, body_b, sum.b * share);
+        }
+    }
+
+    // What its pushes do to one of its bodies.
+    void add_pushes(bool to_a, Move& move) const {
+        for (const Point& point : points) {
+            if (point.active && point.push != 0) {
+                add_rows(point, 1, to_a, move);
+            }
+        }
+    }
+
+    void carry_more(Body& body_a, Body& body_b, Scalar share) {
+        Move to_a, to_b;
+        for (Point& point : points) {
+            if (point.active && point.push != 0) {
+                add_rows(point, share, true, to_a);
+                add_rows(point, share, false, to_b);
+                point.push += point.push * share;
+                point.rub[0] += point.rub[0] * share;
+                point.rub[1] += point.rub[1] * share;
+            }
+        }
+        to_a.apply_to(body_a);
+        to_b.apply_to(body_b);
+    }
+
+    void project(Body& body_a, Body& body_b, bool back) {
+        if (active_count_ > 1) {
+            push_middle(body_a, body_b);
+        }
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            Point& point = points[back ? points.size() - 1 - k : k];
+            if (!point.active) {
+                continue;
+            }
+            const Scalar gap = gap_now(point, body_a, body_b);
+            const Scalar wanted = std::max(point.push - point.along.push_for(gap), Scalar(0));
+            apply(point.along, wanted - point.push, body_a, body_b);
+            point.push = wanted;
+            if (wanted != 0 || point.rub[0] != 0 || point.rub[1] != 0) {
+                rub(point, body_a, body_b);
+            }
+        }
+    }
+
+    // Once velocities are known.
+    void restore_speed(Body& body_a, Body& body_b, Scalar least_approach) const {
+        for (const Point& point : points) {
+            if (restitution == 0 || !point.active || point.push == 0 || point.approach <= least_approach) {
+                continue;
+            }
+            const Levers levers = levers_now(point, body_a, body_b);
+            const Scalar missing = point.approach * restitution + closing_speed(levers, body_a, body_b);
+            if (missing > 0) {
+                point.along.accelerate(point.along.push_for(missing), body_a, body_b);
+            }
+        }
+    }
+
+    // Old overlaps beyond half a millimetre: an eighth a substep, at most three metres a second.
+    void undo_overlap(Body& body_a, Body& body_b, Scalar rate) const {
+        constexpr Scalar allowed = Scalar(0.0005);
+        for (const Point& point : points) {
+            if (point.active && point.separation < -allowed) {
+                const Scalar depth = std::min((-point.separation - allowed) / 8, 3 / rate);
+                apply(point.along, point.along.push_for(depth), body_a, body_b);
+                body_a.orientation = body_a.orientation.normalised();
+                body_b.orientation = body_b.orientation.normalised();
+            }
+        }
+    }
+
+private:
+    // From the centres of mass to where the surfaces meet, in world axes.
+    struct Levers {
+        Vec a, b;
+    };
+
+    static bool take(std::vector<Point>& old, typename std::vector<Point>::iterator from, Point& to) {
+        if (from == old.end()) {
+            return false;
+        }
+        to.push = from->push;
+        to.rub = from->rub;
+        *from = old.back();
+        old.pop_back();
+        return true;
+    }
+    static void take_nearest(std::vector<Point>& old, Point& to) {
+        const auto distance = [&](const Point& p) {
+            const Vec d = p.core_a - to.core_a;
+            return std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+        };
+        const auto nearest = std::min_element(old.begin(), old.end(), [&](const Point& p, const Point& q) {
+            return distance(p) < distance(q);
+        });
+        if (nearest != old.end() && distance(*nearest) < Scalar(0.1)) {
+            take(old, nearest, to);
+        }
+    }
+
+    // Two directions across the normal, and across each other.
+    void span() {
+        const Vec& n = normal;
+        const Vec some = std::abs(n.x) < std::abs(n.y) ? Vec{0, -n.z, n.y} : Vec{-n.z, 0, n.x};
+        across_[0] = some * (1 / some.length());
+        across_[1] = cross(n, across_[0]);
+    }
+
+    Levers levers_now(const Point& point, const Body& body_a, const Body& body_b) const {
+        return {body_a.rotation * point.core_a + normal * radius_a,
+                body_b.rotation * point.core_b - normal * radius_b};
+    }
+    static Vec apart(const Body& body_a, const Vec& on_a, const Body& body_b, const Vec& on_b) {
+        return body_b.position - body_a.position + body_b.rotation * on_b - body_a.rotation * on_a;
+    }
+    Scalar gap_now(const Point& point, const Body& body_a, const Body& body_b) const {
+        const Vec motion = apart(body_a, point.core_a, body_b, point.core_b) - point.core_start;
+        return normal.dot(motion) + std::max(point.separation, Scalar(0));
+    }
+    Scalar closing_speed(const Levers& levers, const Body& body_a, const Body& body_b) const {
+        return -normal.dot(body_b.velocity_at(levers.b) - body_a.velocity_at(levers.a));
+    }
+
+    static void apply(const PushRow<Scalar>& row, Scalar push, Body& body_a, Body& body_b) {
+        if (push != 0) {
+            Move to_a, to_b;
+            row.add(push, to_a, to_b);
+            to_a.apply_to(body_a);
+            to_b.apply_to(body_b);
+        }
+    }
+    void add_rows(const Point& point, Scalar share, bool to_a, Move& move) const {
+        point.along.add(point.push * share, to_a, move);
+        point.across[0].add(point.rub[0] * share, to_a, move);
+        point.across[1].add(point.rub[1] * share, to_a, move);
+    }
+
+    // What all points need alike, at their middle.
+    void push_middle(Body& body_a, Body& body_b) {
+        Scalar sum = 0;
+        Scalar least = std::numeric_limits<Scalar>::max();
+        for (const Point& point : points) {
+            if (point.active) {
+                sum += gap_now(point, body_a, body_b);
+                least = std::min(least, point.push);
+            }
+        }
+        const Scalar n = static_cast<Scalar>(active_count_);
+        const Scalar more = std::max(-middle_.push_for(sum / n) / n, -least);
+        for (Point& point : points) {
+            point.push += point.active ? more : 0;
+        }
+        apply(middle_, n * more, body_a, body_b);
+    }
+
+    // Coulomb's cone: both directions across at once.
+    void rub(Point& point, Body& body_a, Body& body_b) {
+        const Vec motion = apart(body_a, point.material_a, body_b, point.material_b) - point.start;
+        std::array<Scalar, 2> wanted;
+        for (std::size_t i = 0; i < 2; ++i) {
+            wanted[i] = point.rub[i] - point.across[i].push_for(across_[i].dot(motion));
+        }
+        const Scalar size = std::hypot(wanted[0], wanted[1]);
+        if (size > point.push * static_friction) {
+            const Scalar factor = point.push * dynamic_friction / size;
+            wanted = {wanted[0] * factor, wanted[1] * factor};
+        }
+        Move to_a, to_b;
+        for (std::size_t i = 0; i < 2; ++i) {
+            point.across[i].add(wanted[i] - point.rub[i], to_a, to_b);
+        }
+        point.rub = wanted;
+        to_a.apply_to(body_a);
+        to_b.apply_to(body_b);
+    }
+
+    std::array<Vec, 2> across_;
+    PushRow<Scalar> middle_;
+    int active_count_ = 0;
+};
+
+} // namespace reference

@@ -1,0 +1,74 @@
+// How a body of the rigid reference solver moves by itself in a substep: the implicit midpoint rule for its
+// spin in its own axes, and Cayley's map.
+#pragma once
+
+#include "reference/rigid_body.h"
+
+namespace reference {
+
+template <typename Scalar>
+class FreeMotion {
+public:
+    using Vec = Vector3<Scalar>;
+    using Body = MovingBody<Scalar>;
+
+    // rate: substeps a second.
+    FreeMotion(const Vec& gravity, Scalar rate) : gravity_(gravity), rate_(rate) {}
+
+    void predict(Body& body) const {
+        body.start_position = body.position;
+        body.start_orientation = body.orientation;
+        if (body.moves) {
+            body.velocity = body.velocity + gravity_ * (1 / rate_);
+            if (turns_freely(body)) {
+                // Ω_mid = Ω + I⁻¹(IΩ_mid × hΩ_mid/2)
+                const Vec spin = body.rotation.back(body.spin);
+                Vec change;
+                for (int i = 0; i < 10; ++i) {
+                    change = gyroscopic_change(body, spin + change);
+                }
+                body.spin = body.spin + body.rotation * change;
+            }
+            body.position = body.position + body.velocity * (1 / rate_);
+            body.orientation = body.orientation.moved(body.spin * (Scalar(0.5) / rate_)).normalised();
+        }
+        body.rotation = body.orientation.matrix();
+        body.predicted_position = body.uncarried_position = body.position;
+        body.predicted_orientation = body.uncarried_orientation = body.orientation;
+        body.follow_rotation();
+    }
+
+    void finish(Body& body) const {
+        if (!body.moves) {
+            return;
+        }
+        body.velocity = body.velocity + (body.position - body.predicted_position) * rate_;
+        if (!(body.orientation == body.predicted_orientation)) {
+            body.orientation = body.orientation.normalised();
+            body.rotation = body.orientation.matrix();
+            body.spin = half_turn_between(body.start_orientation, body.orientation) * (2 * rate_);
+        }
+        if (turns_freely(body)) {
+            // From the middle of the substep to its end.
+            const Vec change = gyroscopic_change(body, body.rotation.back(body.spin));
+            body.spin = body.spin + body.rotation * change;
+        }
+    }
+
+private:
+    // I⁻¹(IΩ × hΩ/2), in the body's axes; none where it would be more than a quarter of Ω.
+    Vec gyroscopic_change(const Body& body, const Vec& spin) const {
+        const Vec torque = cross(products(body.inertia, spin), spin * (Scalar(0.5) / rate_));
+        const Vec change = products(body.inverse_inertia, torque);
+        return greatest(change) > greatest(spin) / 4 ? Vec{} : change;
+    }
+
+    static bool turns_freely(const Body& body) {
+        return body.moves && !body.round && greatest(body.spin) >= Scalar(1) / 1024;
+    }
+
+    Vec gravity_;
+    Scalar rate_;
+};
+
+} // namespace reference
