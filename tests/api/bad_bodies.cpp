@@ -147,6 +147,8 @@ TEST_CASE("joints out of range, between the same or two kinematic bodies, are re
         {[](lks_joint_def& d) { d.damping = fixed(-2); }, "damping -2"},
         {[](lks_joint_def& d) { d.angular_compliance = fixed(1001); }, "angular_compliance 1001"},
         {[](lks_joint_def& d) { d.angular_damping = fixed(-3); }, "angular_damping -3"},
+        {[](lks_joint_def& d) { d.limit_compliance = fixed(1001); }, "limit_compliance 1001"},
+        {[](lks_joint_def& d) { d.limit_damping = fixed(-6); }, "limit_damping -6"},
         {[](lks_joint_def& d) { d.break_force = fixed(-4); }, "break_force -4"},
         {[](lks_joint_def& d) { d.break_torque = fixed(-5); }, "break_torque -5"},
         {[](lks_joint_def& d) { d.bodies_collide = 2; }, "2"},

@@ -118,6 +118,11 @@ private:
             joint.distance_max = fixed(0.02);
             joint.compliance = i == 1 ? fixed(1e-4) : 0;
             joint.angular_damping = i == 2 ? fixed(0.01) : 0;
+            if (i == 1) {
+                joint.swing_limit = fixed(2);
+                joint.limit_compliance = fixed(0.05);
+                joint.limit_damping = fixed(0.1);
+            }
             const lks_joint_id id = add_joint(world, joint, last, link);
             motor_joint_ = i == 0 ? id : motor_joint_;
             last = link;

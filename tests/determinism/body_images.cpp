@@ -52,11 +52,13 @@ struct Chained {
         return id;
     }
 
-    lks_joint_id join(std::uint32_t i, double limit) {
+    lks_joint_id join(std::uint32_t i, double limit, double soft = 0.02) {
         lks_joint_def def = lks_default_joint_def();
         def.kind = i == 1 ? LKS_JOINT_HINGE : LKS_JOINT_BALL;
         def.swing_limit = fixed(limit);
         def.friction = fixed(0.05);
+        def.limit_compliance = fixed(i == 3 ? soft : 0);
+        def.limit_damping = fixed(i == 3 ? 0.01 : 0);
         def.frame_a.position = fixed(0, 0.15, 0);
         def.frame_b.position = fixed(0, -0.15, 0);
         return add_joint(world, def, bodies[i], bodies[i + 1]);
@@ -96,6 +98,11 @@ const std::function<void(Chained&)> changes[] = {
     [](Chained& c) {
         REQUIRE(lks_world_remove_joint(c.world, c.joints[1]) == LKS_OK);
         c.joints[1] = c.join(1, 50);
+    },
+    [](Chained& c) {
+        // Softer limits only.
+        REQUIRE(lks_world_remove_joint(c.world, c.joints[3]) == LKS_OK);
+        c.joints[3] = c.join(3, 20, 0.03);
     },
     [](Chained& c) { REQUIRE(lks_world_remove_joint(c.world, c.joints[1]) == LKS_OK); },
     [](Chained& c) { REQUIRE(lks_world_remove_joint(c.world, c.joints.back()) == LKS_OK); },

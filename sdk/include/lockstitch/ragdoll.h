@@ -23,11 +23,13 @@ typedef struct lks_bone {
      * and the filter's group are ignored. */
     lks_body_def body;
     lks_transform joint_frame; /* in the ragdoll's frame, in the rest pose; its axis is local y */
-    lks_fixed swing_limit;     /* degrees, 0 .. 180; these three as in lks_joint_def */
-    lks_fixed twist_min;       /* degrees, -180 .. twist_max */
-    lks_fixed twist_max;       /* degrees, twist_min .. 180 */
-    lks_fixed friction;        /* N·m of the joint, 0 .. 1000000 */
-    lks_fixed motor_torque;    /* N·m at scale 1, 0 .. 1000000: what lks_ragdoll_drive turns it with */
+    lks_fixed swing_limit;      /* degrees, 0 .. 180; these three as in lks_joint_def */
+    lks_fixed twist_min;        /* degrees, -180 .. twist_max */
+    lks_fixed twist_max;        /* degrees, twist_min .. 180 */
+    lks_fixed friction;         /* N·m of the joint, 0 .. 1000000 */
+    lks_fixed limit_compliance; /* rad/(N·m) and N·m·s, as in lks_joint_def, whatever the scale */
+    lks_fixed limit_damping;
+    lks_fixed motor_torque; /* N·m at scale 1, 0 .. 1000000: what lks_ragdoll_drive turns it with */
 } lks_bone;
 
 typedef struct lks_ragdoll_def {

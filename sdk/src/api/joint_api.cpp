@@ -33,6 +33,7 @@ JointDescription describe(const lks_joint_def& def, const RigidScene& scene) {
     d.damping = def.damping;
     d.angular_compliance = def.angular_compliance;
     d.angular_damping = def.angular_damping;
+    d.limits = {def.limit_compliance, def.limit_damping};
     d.friction = def.friction;
     d.break_force = def.break_force;
     d.break_torque = def.break_torque;

@@ -60,6 +60,8 @@ lks_result check_joint_ranges(const lks_world& world, const lks_joint_def& def) 
         {"joint's damping", " N·s/m", def.damping, 0, LKS_FIXED(1000000)},
         {"angular_compliance", " rad/(N·m)", def.angular_compliance, 0, LKS_FIXED(1000)},
         {"angular_damping", " N·m·s", def.angular_damping, 0, LKS_FIXED(1000000)},
+        {"limit_compliance", " rad/(N·m)", def.limit_compliance, 0, LKS_FIXED(1000)},
+        {"limit_damping", " N·m·s", def.limit_damping, 0, LKS_FIXED(1000000)},
         {"joint's friction", " N·m", def.friction, 0, LKS_FIXED(1000000)},
         {"break_force", " N", def.break_force, 0, LKS_FIXED(8000000)},
         {"break_torque", " N·m", def.break_torque, 0, LKS_FIXED(8000000)},

@@ -81,6 +81,8 @@ lks_joint_def make_joint_def(const lks_bone& bone, const Placement& placement, c
     joint.swing_limit = bone.swing_limit;
     joint.twist_min = bone.twist_min;
     joint.twist_max = bone.twist_max;
+    joint.limit_compliance = bone.limit_compliance;
+    joint.limit_damping = bone.limit_damping;
     joint.friction = bone.friction;
     return joint;
 }

@@ -24,6 +24,14 @@ struct SinCos {
     std::int32_t cosine;
 };
 
+// World, rad/(N·m) and N·m·s.
+struct SoftLimits {
+    std::int64_t compliance;
+    std::int64_t damping;
+
+    friend constexpr bool operator==(const SoftLimits&, const SoftLimits&) = default;
+};
+
 struct JointDescription {
     std::uint32_t kind; // lks_joint_kind
     std::uint32_t body_a;
@@ -49,6 +57,7 @@ struct JointDescription {
     // Of the motor.
     std::int64_t motor_torque;   // World, N·m; 0: off
     std::int64_t motor_response; // World, s
+    SoftLimits limits;           // last: rigid ones are no part of hashes
 };
 
 // What follows from the description and the bodies' masses.
@@ -68,6 +77,7 @@ struct JointConstants {
     std::int64_t twist_min; // World, radians
     std::int64_t twist_max;
     Softness points;
+    Softness limits;
     std::int64_t angular_softness; // as Softness has it, 30 fraction bits
     std::int64_t drag_softness;    // of angular damping; 0: none
     std::int64_t grip;             // the greatest push of friction or motor in a substep: an angle, World

@@ -48,6 +48,8 @@ void set_forces(JointConstants& c, const JointDescription& d, const fixed::Scale
     c.points = make_softness(d.compliance, d.damping, greater, rate);
     c.angular_softness =
         bounded(world_value(d.angular_compliance) * inverse_h * inverse_h * by_reach / greater, 30);
+    c.limits =
+        make_softness(d.limits.compliance, d.limits.damping, greater.times_power_of_two(-2 * c.reach), rate);
     if (d.angular_damping != 0) {
         c.drag_softness = bounded(by_reach * inverse_h / (world_value(d.angular_damping) * greater), 30);
         c.drag_softness = std::max<std::int64_t>(c.drag_softness, 1);
@@ -88,6 +90,8 @@ lks_joint_def define_joint(const JointDescription& d) {
     def.damping = d.damping;
     def.angular_compliance = d.angular_compliance;
     def.angular_damping = d.angular_damping;
+    def.limit_compliance = d.limits.compliance;
+    def.limit_damping = d.limits.damping;
     def.friction = d.friction;
     def.break_force = d.break_force;
     def.break_torque = d.break_torque;

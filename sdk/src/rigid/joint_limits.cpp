@@ -56,13 +56,24 @@ bool find_swing(const Joint& joint, const Body& a, const Body& b, Swing& swing) 
     return true;
 }
 
+bool are_soft(const Joint& joint) {
+    return joint.constants.limits.softness != 0;
+}
+
+// What has to be turned back, where `beyond` is now, and `start` was when the substep began; neither is less
+// than zero but where it was turned back too far.
+std::int64_t to_turn_back(const Joint& joint, std::int64_t beyond, std::int64_t start, std::int64_t push) {
+    return are_soft(joint) ? soften(joint.constants.limits, beyond, beyond - start, -push) : beyond - start;
+}
+
 void hold_swing(Joint& joint, Body& a, Body& b) {
     Swing swing{};
     if (!find_swing(joint, a, b, swing)) {
         return;
     }
-    const TurnRow row(joint, a, b, swing.axis);
-    const std::int64_t beyond = swing.angle - std::max(swing.limit, joint.swing_start);
+    const TurnRow row(joint, a, b, swing.axis, joint.constants.limits.softness);
+    const std::int64_t start = std::max<std::int64_t>(joint.swing_start - swing.limit, 0);
+    const std::int64_t beyond = to_turn_back(joint, swing.angle - swing.limit, start, joint.swing_push);
     const std::int64_t wanted =
         std::clamp<std::int64_t>(joint.swing_push + row.push_for(beyond), 0, greatest_push);
     const std::int64_t more = wanted - joint.swing_push;
@@ -105,15 +116,20 @@ void hold_twist(Joint& joint, Body& a, Body& b) {
     if (!find_twist(joint, a, b, twist) || !twist_axis(joint, a, b, axis)) {
         return;
     }
-    const TurnRow row(joint, a, b, axis);
+    const JointConstants& c = joint.constants;
+    const TurnRow row(joint, a, b, axis, c.limits.softness);
     const std::int64_t before = joint.twist_push;
+    const std::int64_t most = are_soft(joint) ? c.twist_max : joint.twist_most;
+    const std::int64_t least = are_soft(joint) ? c.twist_min : joint.twist_least;
     // Beyond its greatest it may only be turned down, below its least only up.
-    if (twist > joint.twist_most || before < 0) {
-        joint.twist_push =
-            std::clamp<std::int64_t>(before + row.push_for(joint.twist_most - twist), -greatest_push, 0);
-    } else if (twist < joint.twist_least || before > 0) {
-        joint.twist_push =
-            std::clamp<std::int64_t>(before + row.push_for(joint.twist_least - twist), 0, greatest_push);
+    if (twist > most || before < 0) {
+        const std::int64_t back =
+            to_turn_back(joint, twist - c.twist_max, joint.twist_most - c.twist_max, -before);
+        joint.twist_push = std::clamp<std::int64_t>(before + row.push_for(-back), -greatest_push, 0);
+    } else if (twist < least || before > 0) {
+        const std::int64_t back =
+            to_turn_back(joint, c.twist_min - twist, c.twist_min - joint.twist_least, before);
+        joint.twist_push = std::clamp<std::int64_t>(before + row.push_for(back), 0, greatest_push);
     }
     row.apply(joint.twist_push - before);
 }
@@ -144,7 +160,11 @@ void begin_limits(Joint& joint, const Body& a, const Body& b) {
     }
 }
 
-void warm_start_limits(const Joint& joint, Body& a, Body& b) {
+void warm_start_limits(Joint& joint, Body& a, Body& b) {
+    if (are_soft(joint)) {
+        joint.swing_push = joint.twist_push = 0;
+        return;
+    }
     push_limits(joint, a, b, joint.swing_push, joint.twist_push);
 }
 
@@ -179,6 +199,9 @@ Vec3 limit_push(const Joint& joint, const Body& a, const Body& b) {
 }
 
 bool undo_limits(const Joint& joint, Body& a, Body& b) {
+    if (are_soft(joint)) {
+        return false;
+    }
     const JointConstants& c = joint.constants;
     // A row turns bodies about their centres, and the points of the joint hold much of that back: by half as
     // much again, rounds get there sooner.

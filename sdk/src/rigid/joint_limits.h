@@ -1,6 +1,9 @@
 // The limits of swing and twist. What is beyond a limit must not turn further within a substep; like a
 // contact's, its push only turns back, and the next substep begins with it. What is beyond is undone without
 // giving speed.
+//
+// Soft limits are XPBD's (Macklin et al. 2016, eq. 26), as soft joints are: from zero in each substep, with
+// what is beyond as the error, and its change within the substep damped.
 #pragma once
 
 #include "rigid/joint.h"
@@ -10,7 +13,7 @@ namespace lks {
 // Before the prediction: how far they let turn.
 void begin_limits(Joint& joint, const Body& a, const Body& b);
 // After it.
-void warm_start_limits(const Joint& joint, Body& a, Body& b);
+void warm_start_limits(Joint& joint, Body& a, Body& b);
 void carry_more_limits(Joint& joint, Body& a, Body& b, std::int32_t share);
 void project_limits(Joint& joint, Body& a, Body& b);
 // How they have pushed in this substep.

@@ -78,8 +78,9 @@ void record_fields(Io& io, BodyState& body) {
     body_motion_fields(io, body);
 }
 
+// But for soft limits.
 template <typename Io>
-void record_fields(Io& io, JointDescription& d) {
+void joint_fields(Io& io, JointDescription& d) {
     io.u32(d.kind);
     io.u32(d.body_a);
     io.u32(d.body_b);
@@ -103,6 +104,13 @@ void record_fields(Io& io, JointDescription& d) {
     io.i64(d.break_torque);
     io.i64(d.motor_torque);
     io.i64(d.motor_response);
+}
+
+template <typename Io>
+void record_fields(Io& io, JointDescription& d) {
+    joint_fields(io, d);
+    io.i64(d.limits.compliance);
+    io.i64(d.limits.damping);
 }
 
 template <typename Io>

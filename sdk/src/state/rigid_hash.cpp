@@ -1,3 +1,5 @@
+#include <cstddef>
+
 #include "state/records.h"
 #include "state/rigid_image.h"
 
@@ -26,6 +28,19 @@ void add_state(Hash& hash, const Body& body, bool local) {
     body_motion_fields(hashing, state);
 }
 
+// Limits that are not soft don't count: a joint has the hash that it had before there were any.
+void add_description(Hash& hash, const JointDescription& description) {
+    if (!(description.limits == SoftLimits{})) {
+        hash_record(hash, description);
+    } else if constexpr (host_is_little_endian) {
+        hash.add_bytes(&description, offsetof(JointDescription, limits));
+    } else {
+        Hashing hashing(hash);
+        JointDescription copy = description;
+        joint_fields(hashing, copy);
+    }
+}
+
 } // namespace
 
 void hash_rigid(Hash& hash, const RigidScene& scene, bool local) {
@@ -47,7 +62,7 @@ void hash_rigid(Hash& hash, const RigidScene& scene, bool local) {
         hash.add_u32(scene.joint_slots[i].generation);
         hash.add_u32(scene.joint_slots[i].used ? 1 : 0);
         if (scene.joint_slots[i].used) {
-            hash_record(hash, scene.joints[i].description);
+            add_description(hash, scene.joints[i].description);
             hash_record<JointState>(hash, scene.joints[i]);
         }
     }
