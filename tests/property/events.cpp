@@ -176,8 +176,8 @@ TEST_CASE("events beyond the room for them are counted, and wrong settings refus
     world.step();
     CHECK(lks_world_event_count(world) == 3);
     CHECK(world.counters().lost_events == 5);
-    check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "64",
-                       [&] { return lks_world_record_events(world, 64, 0, 10); });
+    check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "128",
+                       [&] { return lks_world_record_events(world, 128, 0, 10); });
     check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "-1",
                        [&] { return lks_world_record_events(world, 1, fixed(-1), 10); });
     check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "0 events",

@@ -2,8 +2,8 @@
  *
  * Events are no part of the state and change nothing of it: a world that records them has the same bits as
  * one that does not, and a world that was rolled back gives the same ones again. They come in a canonical
- * order: by tick, within it contacts by their bodies' indices, then broken joints, broken attachments, and
- * sleep.
+ * order: by tick, within it contacts by their bodies' indices, then particles on bodies by the indices of
+ * object and body, broken joints, broken attachments, and sleep.
  */
 #ifndef LOCKSTITCH_EVENT_H
 #define LOCKSTITCH_EVENT_H
@@ -21,12 +21,16 @@ typedef enum lks_event_kind {
     LKS_EVENT_JOINT_BROKE = 2,   /* its id is stale now */
     LKS_EVENT_ATTACHMENT_BROKE = 3,
     LKS_EVENT_FELL_ASLEEP = 4,
-    LKS_EVENT_WOKE = 5
+    LKS_EVENT_WOKE = 5,
+    /* The particles of an object pushed a body in this tick, or were held back by it, with least_impulse or
+     * more: one event an object, body and tick for as long as that goes on. What lies on a body at rest
+     * pushes with its weight times a tick. */
+    LKS_EVENT_PARTICLES_PUSHED = 6
 } lks_event_kind;
 
 /* For lks_world_record_events: one bit a kind. */
 #define LKS_EVENT_BIT(kind) (1u << (kind))
-#define LKS_ALL_EVENTS 0x3fu
+#define LKS_ALL_EVENTS 0x7fu
 #define LKS_MAX_EVENTS 1048576u
 
 typedef struct lks_event {
@@ -38,13 +42,15 @@ typedef struct lks_event {
     lks_collider_id collider; /* what body_a touches; generation 0: none */
     lks_joint_id joint;       /* that broke */
     lks_attachment_id attachment;
-    lks_fixed strength; /* a contact's impulse in this tick along its normals, N·s; what broke a joint or an
-                           attachment, N or N·m; saturates at 8,388,607 */
+    lks_object_id object; /* whose particles pushed body_a; generation 0: none */
+    lks_fixed strength;   /* a contact's impulse in this tick along its normals, N·s; of particles the sum of
+                             the sizes of theirs, with friction; what broke a joint or an attachment, N or
+                             N·m; saturates at 8,388,607 */
 } lks_event;
 
 /* From now on. `kinds` is made of LKS_EVENT_BITs, 0: none. Contacts that begin with less than `least_impulse`
- * (N·s, 0 .. 8000000) are left out. At most `capacity` (1 .. LKS_MAX_EVENTS) are kept of a call that runs
- * ticks; the rest is counted (lost_events). */
+ * (N·s, 0 .. 8000000) are left out, and so are particles that push with less. At most `capacity` (1 ..
+ * LKS_MAX_EVENTS) are kept of a call that runs ticks; the rest is counted (lost_events). */
 LKS_API lks_result lks_world_record_events(lks_world* world, uint32_t kinds, lks_fixed least_impulse,
                                            uint32_t capacity);
 /* Of the ticks that the last lks_world_step or lks_world_advance ran. Valid until the next one, until a load,

@@ -21,6 +21,7 @@ public:
     void find() {
         scene_.coupled.clear();
         scene_.object_pairs.clear();
+        scene_.object_impulses.clear();
         scene_.is_coupled.clear();
         scene_.held.clear();
         if (scene_.empty() || world_.objects.empty()) {
@@ -77,6 +78,9 @@ private:
         scene_.overlaps.for_each_pair(
             [this](std::uint32_t i, std::uint32_t j) { add_pair(scene_.boxed[i], scene_.boxed[j]); });
         std::sort(scene_.object_pairs.begin(), scene_.object_pairs.end());
+        for (std::size_t i = 0; i < scene_.object_pairs.size(); ++i) {
+            scene_.object_impulses.push_reserved(0);
+        }
     }
 
     // Bodies stand before objects.

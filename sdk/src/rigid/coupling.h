@@ -6,8 +6,8 @@
 
 namespace lks {
 
-// At the beginning of a tick: fills the scene's is_coupled, coupled and object_pairs. Pairs beyond their room
-// are left out and counted.
+// At the beginning of a tick: fills the scene's is_coupled, coupled, object_pairs and object_impulses. Pairs
+// beyond their room are left out and counted.
 void find_coupled(lks_world& world);
 
 inline bool is_coupled(const RigidScene& scene, std::size_t object) {

@@ -162,6 +162,25 @@ void record_contacts(lks_world& world) {
     }
 }
 
+void record_particles(lks_world& world) {
+    if (!world.event_log.wants_particles()) {
+        return;
+    }
+    const RigidScene& scene = world.rigid;
+    for (std::size_t i = 0; i < scene.object_pairs.size(); ++i) {
+        const std::int64_t impulse = std::min(scene.object_impulses[i], greatest_strength);
+        if (impulse == 0 || impulse < world.event_log.least_impulse) {
+            continue;
+        }
+        const auto object = static_cast<std::uint32_t>(scene.object_pairs[i] >> 32);
+        lks_event event = make_event(world, LKS_EVENT_PARTICLES_PUSHED);
+        event.body_a = body_id(scene, static_cast<std::uint32_t>(scene.object_pairs[i]));
+        event.object = {object, world.objects[object].generation};
+        event.strength = impulse;
+        add(world, event);
+    }
+}
+
 void record_break(lks_world& world, const Joint& joint, std::uint32_t index) {
     if (!world.event_log.wants(LKS_EVENT_JOINT_BROKE)) {
         return;

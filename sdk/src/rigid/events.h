@@ -14,6 +14,7 @@ struct EventLog {
     explicit EventLog(const lks_allocator& allocator) : events(allocator) {}
 
     bool wants(lks_event_kind kind) const { return (kinds & LKS_EVENT_BIT(kind)) != 0; }
+    bool wants_particles() const { return wants(LKS_EVENT_PARTICLES_PUSHED); }
     bool wants_contacts() const { return wants(LKS_EVENT_CONTACT_BEGIN) || wants(LKS_EVENT_CONTACT_END); }
 
     std::uint32_t kinds = 0;
@@ -24,6 +25,7 @@ struct EventLog {
 
 // At the end of a tick, before the new memories take the place of the old ones.
 void record_contacts(lks_world& world);
+void record_particles(lks_world& world);
 // Before it is freed.
 void record_break(lks_world& world, const Joint& joint, std::uint32_t index);
 void record_break(lks_world& world, const Attachment& attachment, std::uint32_t index);

@@ -6,10 +6,12 @@
 #include "collide/saturation.h"
 #include "fixed/formats.h"
 #include "rigid/attachment.h"
+#include "rigid/make_body.h"
 
 namespace lks {
 namespace {
 
+using fixed::Scaled;
 using fixed::Vec3;
 
 // To the nearest.
@@ -61,28 +63,50 @@ private:
     const BodyShape& shape_;
 };
 
+// Of a body that does not give way: a kinematic one goes on as before.
 class Reaction : public ContactReaction {
 public:
-    explicit Reaction(const HeldParticles& held) : held_(held) {}
+    // impulse: null, or what they push is added to it.
+    Reaction(const HeldParticles& held, const Object& object, const Body& body, const MotionRate& rate,
+             std::int64_t* impulse)
+        : held_(held), object_(object), inverse_mass_(body.effective_inverse_mass()),
+          substeps_per_second_(static_cast<std::uint64_t>(rate.substeps_per_second)), impulse_(impulse) {}
     bool ignores(std::uint32_t particle) const override { return held_.contain(particle); }
+    Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
+        if (adds_up()) {
+            add_push(particle, to_world(saturate(fixed::length(correction))));
+        }
+        return correction;
+    }
+
+protected:
+    // A push of this substep, World, in the greater inverse mass of the two.
+    void add_push(std::uint32_t particle, std::int64_t push) const {
+        const InverseMass own = particle_inverse_mass(object_, particle);
+        const InverseMass& greater = pair_shares(own, inverse_mass_).a == direction_one ? own : inverse_mass_;
+        if (greater.mantissa != 0) {
+            const Scaled speed = Scaled::from_fixed(fixed::magnitude(push), world_fraction_bits) *
+                                 Scaled::from_u64(substeps_per_second_);
+            *impulse_ = fixed::saturating_add(*impulse_,
+                                              (speed / to_scaled(greater)).to_i64_fixed(world_fraction_bits));
+        }
+    }
+    bool adds_up() const { return impulse_ != nullptr; }
 
 private:
     HeldParticles held_;
-};
-
-// A kinematic one goes its way.
-class Unmoved final : public Reaction {
-public:
-    using Reaction::Reaction;
-    Vec3 give_way(std::uint32_t, const Vec3& correction) override { return correction; }
+    const Object& object_;
+    InverseMass inverse_mass_;
+    std::uint64_t substeps_per_second_;
+    std::int64_t* impulse_;
 };
 
 // What hits it pushes it.
 class Pushed final : public Reaction {
 public:
-    Pushed(const HeldParticles& held, Object& object, Body& body, const BodyShapePlace& place,
+    Pushed(const Reaction& reaction, Object& object, Body& body, const BodyShapePlace& place,
            ContactFrame& frame)
-        : Reaction(held), object_(object), body_(body), place_(place), frame_(frame) {}
+        : Reaction(reaction), object_(object), body_(body), place_(place), frame_(frame) {}
 
     Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
         fixed::NormalisedVector way{};
@@ -97,6 +121,9 @@ public:
         const std::int64_t p = divide(to_world(way.length), invert(weight));
         push(body_, side, fixed::scale(way.direction, p), p, -1);
         place_.follow(frame_, object_.origin);
+        if (adds_up()) {
+            add_push(particle, p);
+        }
         return fixed::scale(way.direction, fixed::scale_component(shares.a, coordinate_from_world(p)));
     }
 
@@ -110,8 +137,8 @@ private:
 // A sleeping one only takes down what has struck it: what lies on it does not, what falls on it does.
 class Struck final : public Reaction {
 public:
-    Struck(const HeldParticles& held, const Object& object, Body& body, const MotionRate& rate)
-        : Reaction(held), object_(object), body_(body), rate_(rate),
+    Struck(const Reaction& reaction, const Object& object, Body& body, const MotionRate& rate)
+        : Reaction(reaction), object_(object), body_(body), rate_(rate),
           least_(coordinate_from_world(LKS_FIXED_RATIO(1, 4) / rate.substeps_per_second)) {}
 
     Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
@@ -123,7 +150,7 @@ public:
             body_.struck = fixed::saturating_add(body_.struck,
                                                  fixed::multiply_shift(moved, rate_.substeps_per_second, 0));
         }
-        return correction;
+        return Reaction::give_way(particle, correction);
     }
 
 private:
@@ -145,24 +172,25 @@ HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t obje
 }
 
 void collide_with_body(Object& object, Body& body, const BodyDescription& description,
-                       const HeldParticles& held, const MotionRate& rate, const Kernels& kernels) {
+                       const HeldParticles& held, const MotionRate& rate, const Kernels& kernels,
+                       std::int64_t* impulse) {
     const ParticleArrays particles{object.axis(0),       object.axis(1),       object.axis(2),
                                    object.start_axis(0), object.start_axis(1), object.start_axis(2)};
     const lks_asset& asset = object.asset();
     const Bounds bounds = object.swept_bounds(0, object.count());
+    Reaction reaction(held, object, body, rate, impulse);
     for (std::uint32_t i = 0; i < description.shape_count; ++i) {
         const BodyShapePlace place(body, description.shapes[i]);
         ContactFrame frame = make_contact_frame(place.way(description.surface), object.origin, bounds,
                                                 asset.particle_radius, asset.friction);
         frame.greatest_recovery = rate.greatest_recovery;
         if (!body.is_dynamic()) {
-            Unmoved unmoved(held);
-            resolve_contacts(frame, particles, 0, object.count(), kernels, &unmoved);
+            resolve_contacts(frame, particles, 0, object.count(), kernels, &reaction);
         } else if (body.asleep != 0) {
-            Struck struck(held, object, body, rate);
+            Struck struck(reaction, object, body, rate);
             resolve_contacts(frame, particles, 0, object.count(), kernels, &struck);
         } else {
-            Pushed pushed(held, object, body, place, frame);
+            Pushed pushed(reaction, object, body, place, frame);
             resolve_contacts(frame, particles, 0, object.count(), kernels, &pushed);
         }
     }

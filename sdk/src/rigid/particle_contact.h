@@ -21,8 +21,10 @@ struct HeldParticles {
 HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t object, std::uint32_t body);
 
 // All particles of the object against all shapes of the body, in this substep. A sleeping body does not give
-// way; how fast what struck it would have made it is added to its `struck`.
+// way; how fast what struck it would have made it is added to its `struck`. What they push is added to
+// `impulse`, World N·s, if anybody wants to know.
 void collide_with_body(Object& object, Body& body, const BodyDescription& description,
-                       const HeldParticles& held, const MotionRate& rate, const Kernels& kernels);
+                       const HeldParticles& held, const MotionRate& rate, const Kernels& kernels,
+                       std::int64_t* impulse);
 
 } // namespace lks

@@ -84,7 +84,8 @@ struct RigidScene {
     Array<std::uint8_t> is_coupled;
     Array<std::uint32_t> coupled;
     Array<std::uint64_t> object_pairs;
-    Array<HeldParticle> held; // ascending
+    Array<std::int64_t> object_impulses; // beside them: what particles pushed, World N·s, for events
+    Array<HeldParticle> held;            // ascending
     // Scratch of a load, by slot.
     Array<Loaded> loaded_bodies;
     Array<Loaded> loaded_joints;

@@ -272,7 +272,8 @@ void RigidSubstep::collide_objects(std::uint32_t substep) {
         for (; pair < scene_.object_pairs.size() && scene_.object_pairs[pair] >> 32 == index; ++pair) {
             const auto body = static_cast<std::uint32_t>(scene_.object_pairs[pair]);
             collide_with_body(object, scene_.bodies[body], scene_.descriptions[body],
-                              held_particles(scene_.held, index, body), rate_, *world_.kernels);
+                              held_particles(scene_.held, index, body), rate_, *world_.kernels,
+                              world_.event_log.wants_particles() ? &scene_.object_impulses[pair] : nullptr);
             touched = true;
         }
         if (touched) {

@@ -182,6 +182,7 @@ private:
         }
         keep_sleeping(old, nullptr);
         record_contacts(world_);
+        record_particles(world_);
         scene_.memories.swap(scene_.next_memories);
     }
 
