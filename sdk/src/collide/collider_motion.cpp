@@ -180,6 +180,7 @@ ContactFrame make_contact_frame(const ShapeWay& way, const fixed::Vec3& origin, 
     frame.static_friction = combined_friction(way.static_friction, friction_factor);
     frame.dynamic_friction = combined_friction(way.dynamic_friction, friction_factor);
     frame.greatest_recovery = INT64_MAX;
+    frame.greatest_growth = INT64_MAX;
     frame.rotating = way.rotating;
     frame.moving = way.rotating || !(way.start == way.end);
     frame.end_rotation = way.end_rotation;

@@ -66,6 +66,8 @@ struct ContactFrame {
     // shape. Where the collider rotates, the particle's own motion makes the particle's box larger by half.
     fixed::Vec3 box_low;
     fixed::Vec3 box_high;
+    // The most by which that makes any particle's box larger; INT64_MAX where it is not known.
+    std::int64_t greatest_growth;
 };
 
 // A shape's way through one substep.

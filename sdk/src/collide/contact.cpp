@@ -228,14 +228,16 @@ template <lks_shape_kind kind>
 void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
                    std::uint32_t count, const Kernels& kernels, ContactReaction* reaction) {
     const auto resolve = [&](std::uint32_t i) { resolve_solid_contact<kind>(frame, particles, i, reaction); };
-    if (frame.rotating) {
+    if (frame.rotating && (!frame.has_box || frame.greatest_growth == INT64_MAX)) {
         for (std::uint32_t i = first; i < first + count; ++i) {
             resolve(i);
         }
         return;
     }
-    const fixed::Vec3& low = frame.box_low;
-    const fixed::Vec3& high = frame.box_high;
+    // Particles' boxes grow by no more than the frame's does here; each is looked at by its own later.
+    const std::int64_t growth = frame.rotating ? frame.greatest_growth : 0;
+    const fixed::Vec3 low = saturating_subtract(frame.box_low, {growth, growth, growth});
+    const fixed::Vec3 high = saturating_add(frame.box_high, {growth, growth, growth});
     const BoxTask task{{particles.x, particles.y, particles.z},
                        {particles.start_x, particles.start_y, particles.start_z},
                        {upper_half(low.x), upper_half(low.y), upper_half(low.z)},

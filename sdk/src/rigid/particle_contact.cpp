@@ -68,11 +68,12 @@ class Reaction : public ContactReaction {
 public:
     // impulse: null, or what they push is added to it.
     Reaction(const HeldParticles& held, const Object& object, const Body& body, const MotionRate& rate,
-             std::int64_t* impulse)
-        : held_(held), object_(object), inverse_mass_(body.effective_inverse_mass()),
+             SweptParticles& swept, std::int64_t* impulse)
+        : held_(held), swept_(swept), object_(object), inverse_mass_(body.effective_inverse_mass()),
           substeps_per_second_(static_cast<std::uint64_t>(rate.substeps_per_second)), impulse_(impulse) {}
     bool ignores(std::uint32_t particle) const override { return held_.contain(particle); }
     Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
+        swept_.moved();
         if (adds_up()) {
             add_push(particle, to_world(saturate(fixed::length(correction))));
         }
@@ -91,10 +92,12 @@ protected:
                                               (speed / to_scaled(greater)).to_i64_fixed(world_fraction_bits));
         }
     }
+    void moved() const { swept_.moved(); }
     bool adds_up() const { return impulse_ != nullptr; }
 
 private:
     HeldParticles held_;
+    SweptParticles& swept_;
     const Object& object_;
     InverseMass inverse_mass_;
     std::uint64_t substeps_per_second_;
@@ -109,6 +112,7 @@ public:
         : Reaction(reaction), object_(object), body_(body), place_(place), frame_(frame) {}
 
     Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
+        moved();
         fixed::NormalisedVector way{};
         if (!fixed::normalise(correction, way)) {
             return correction;
@@ -166,6 +170,22 @@ bool HeldParticles::contain(std::uint32_t particle) const {
     return std::any_of(first, last, [particle](const HeldParticle& h) { return h.particle == particle; });
 }
 
+const Bounds& SweptParticles::bounds() {
+    if (!bounds_known_) {
+        bounds_ = object_.swept_bounds(0, object_.count());
+        bounds_known_ = true;
+    }
+    return bounds_;
+}
+
+std::int64_t SweptParticles::greatest_growth() {
+    if (!growth_known_) {
+        growth_ = object_.greatest_way() / 2 + 1;
+        growth_known_ = true;
+    }
+    return growth_;
+}
+
 HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t object, std::uint32_t body) {
     const HeldParticle* first = std::lower_bound(held.begin(), held.end(), HeldParticle{object, body, 0});
     return {first, std::lower_bound(first, held.end(), HeldParticle{object, body, UINT32_MAX})};
@@ -173,17 +193,23 @@ HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t obje
 
 void collide_with_body(Object& object, Body& body, const BodyDescription& description,
                        const HeldParticles& held, const MotionRate& rate, const Kernels& kernels,
-                       std::int64_t* impulse) {
+                       SweptParticles& swept, std::int64_t* impulse) {
     const ParticleArrays particles{object.axis(0),       object.axis(1),       object.axis(2),
                                    object.start_axis(0), object.start_axis(1), object.start_axis(2)};
     const lks_asset& asset = object.asset();
-    const Bounds bounds = object.swept_bounds(0, object.count());
-    Reaction reaction(held, object, body, rate, impulse);
+    const Bounds bounds = swept.bounds();
+    Reaction reaction(held, object, body, rate, swept, impulse);
     for (std::uint32_t i = 0; i < description.shape_count; ++i) {
         const BodyShapePlace place(body, description.shapes[i]);
         ContactFrame frame = make_contact_frame(place.way(description.surface), object.origin, bounds,
                                                 asset.particle_radius, asset.friction);
+        if (!frame.reachable) {
+            continue;
+        }
         frame.greatest_recovery = rate.greatest_recovery;
+        if (frame.rotating) {
+            frame.greatest_growth = swept.greatest_growth();
+        }
         if (!body.is_dynamic()) {
             resolve_contacts(frame, particles, 0, object.count(), kernels, &reaction);
         } else if (body.asleep != 0) {

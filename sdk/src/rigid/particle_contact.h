@@ -20,11 +20,30 @@ struct HeldParticles {
 };
 HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t object, std::uint32_t body);
 
+// Where the particles of an object are, and were at the substep's start; looked at anew after some were
+// moved.
+class SweptParticles {
+public:
+    explicit SweptParticles(const Object& object) : object_(object) {}
+
+    const Bounds& bounds();
+    // By how much the box of any one's way is to grow at most (collide/collider_motion.h).
+    std::int64_t greatest_growth();
+    void moved() { bounds_known_ = growth_known_ = false; }
+
+private:
+    const Object& object_;
+    Bounds bounds_{};
+    std::int64_t growth_ = 0;
+    bool bounds_known_ = false;
+    bool growth_known_ = false;
+};
+
 // All particles of the object against all shapes of the body, in this substep. A sleeping body does not give
 // way; how fast what struck it would have made it is added to its `struck`. What they push is added to
 // `impulse`, World N·s, if anybody wants to know.
 void collide_with_body(Object& object, Body& body, const BodyDescription& description,
                        const HeldParticles& held, const MotionRate& rate, const Kernels& kernels,
-                       std::int64_t* impulse);
+                       SweptParticles& swept, std::int64_t* impulse);
 
 } // namespace lks

@@ -268,11 +268,12 @@ void RigidSubstep::collide_objects(std::uint32_t substep) {
     for (const std::uint32_t index : scene_.coupled) {
         Object& object = coupled_object(world_, index);
         collide_object(world_, object, world_.scratch[0], substep);
+        SweptParticles swept(object);
         bool touched = false;
         for (; pair < scene_.object_pairs.size() && scene_.object_pairs[pair] >> 32 == index; ++pair) {
             const auto body = static_cast<std::uint32_t>(scene_.object_pairs[pair]);
             collide_with_body(object, scene_.bodies[body], scene_.descriptions[body],
-                              held_particles(scene_.held, index, body), rate_, *world_.kernels,
+                              held_particles(scene_.held, index, body), rate_, *world_.kernels, swept,
                               world_.event_log.wants_particles() ? &scene_.object_impulses[pair] : nullptr);
             touched = true;
         }
