@@ -22,7 +22,7 @@ typedef struct lks_bone {
     /* Shapes, mass, surface. Its transform is the bone's in the ragdoll's frame, in the rest pose; velocities
      * and the filter's group are ignored. */
     lks_body_def body;
-    lks_transform joint_frame; /* in the ragdoll's frame, in the rest pose; its axis is local y */
+    lks_transform joint_frame;  /* in the ragdoll's frame, in the rest pose; its axis is local y */
     lks_fixed swing_limit;      /* degrees, 0 .. 180; these three as in lks_joint_def */
     lks_fixed twist_min;        /* degrees, -180 .. twist_max */
     lks_fixed twist_max;        /* degrees, twist_min .. 180 */

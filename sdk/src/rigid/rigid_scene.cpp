@@ -15,7 +15,8 @@ RigidScene::RigidScene(const lks_allocator& allocator)
       articulated(allocator), trees(allocator), figures(allocator), figure_parts(allocator),
       figure_ranges(allocator), shared_contacts(allocator), figure_shares(allocator),
       figures_changed(allocator), island_rests(allocator), is_coupled(allocator), coupled(allocator),
-      object_pairs(allocator), object_impulses(allocator), held(allocator), loaded_bodies(allocator), loaded_joints(allocator) {}
+      object_pairs(allocator), object_impulses(allocator), held(allocator), loaded_bodies(allocator),
+      loaded_joints(allocator) {}
 
 bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
     if (body_count == 0) {
