@@ -75,10 +75,9 @@ public:
     PushRow() = default;
     PushRow(const Vec& direction, const Body& a, const Vec& lever_a, const Body& b, const Vec& lever_b)
         : direction_(direction), mass_a_(a.inverse_mass), mass_b_(b.inverse_mass),
-          turn_a_(a.world_inverse * cross(lever_a, direction)),
-          turn_b_(b.world_inverse * cross(lever_b, direction)),
-          weight_(mass_a_ + mass_b_ + cross(lever_a, direction).dot(turn_a_) +
-                  cross(lever_b, direction).dot(turn_b_)) {}
+          arm_a_(cross(lever_a, direction)), arm_b_(cross(lever_b, direction)),
+          turn_a_(a.world_inverse * arm_a_), turn_b_(b.world_inverse * arm_b_),
+          weight_(mass_a_ + mass_b_ + arm_a_.dot(turn_a_) + arm_b_.dot(turn_b_)) {}
 
     // What it takes to part them by this length, in kg·m; or by this speed, in N·s.
     Scalar push_for(Scalar length) const { return length / weight_; }
@@ -90,6 +89,10 @@ public:
         const Scalar p = to_a ? -push : push;
         move.shift = move.shift + direction_ * (p * (to_a ? mass_a_ : mass_b_));
         move.angle = move.angle + (to_a ? turn_a_ : turn_b_) * p;
+    }
+    // How far the moves part them, to first order.
+    Scalar parted(const BodyMove<Scalar>& a, const BodyMove<Scalar>& b) const {
+        return direction_.dot(b.shift - a.shift) + arm_b_.dot(b.angle) - arm_a_.dot(a.angle);
     }
     void accelerate(Scalar impulse, Body& a, Body& b) const {
         BodyMove<Scalar> by_a, by_b;
@@ -103,6 +106,7 @@ public:
 private:
     Vec direction_;
     Scalar mass_a_ = 0, mass_b_ = 0;
+    Vec arm_a_, arm_b_;
     Vec turn_a_, turn_b_;
     Scalar weight_ = 1;
 };

@@ -30,6 +30,9 @@ struct ContactPoint {
     bool active = false;
     PushRow<Scalar> along;
     std::array<PushRow<Scalar>, 2> across;
+    // Of an iteration: how far the surfaces have parted, less what was open, and how far they have slid.
+    Scalar gap = 0;
+    std::array<Scalar, 2> slip{};
 };
 
 template <typename Scalar>
@@ -138,21 +141,35 @@ public:
         to_b.apply_to(body_b);
     }
 
-    void project(Body& body_a, Body& body_b, bool back) {
+    // Before the sweeps of an iteration, in which bodies stay where they are.
+    void measure(const Body& body_a, const Body& body_b) {
+        middle_gap_ = 0;
+        for (Point& point : points) {
+            if (point.active) {
+                point.gap = gap_now(point, body_a, body_b);
+                middle_gap_ += point.gap / static_cast<Scalar>(active_count_);
+                const Vec slid = apart(body_a, point.material_a, body_b, point.material_b) - point.start;
+                point.slip = {across_[0].dot(slid), across_[1].dot(slid)};
+            }
+        }
+    }
+
+    // `to_a`, `to_b`: what contacts have done to the bodies in these sweeps.
+    void project(Move& to_a, Move& to_b, bool back) {
         if (active_count_ > 1) {
-            push_middle(body_a, body_b);
+            push_middle(to_a, to_b);
         }
         for (std::size_t k = 0; k < points.size(); ++k) {
             Point& point = points[back ? points.size() - 1 - k : k];
             if (!point.active) {
                 continue;
             }
-            const Scalar gap = gap_now(point, body_a, body_b);
+            const Scalar gap = point.gap + point.along.parted(to_a, to_b);
             const Scalar wanted = std::max(point.push - point.along.push_for(gap), Scalar(0));
-            apply(point.along, wanted - point.push, body_a, body_b);
+            point.along.add(wanted - point.push, to_a, to_b);
             point.push = wanted;
             if (wanted != 0 || point.rub[0] != 0 || point.rub[1] != 0) {
-                rub(point, body_a, body_b);
+                rub(point, to_a, to_b);
             }
         }
     }
@@ -174,13 +191,20 @@ public:
     // Old overlaps beyond half a millimetre: an eighth a substep, at most three metres a second.
     void undo_overlap(Body& body_a, Body& body_b, Scalar rate) const {
         constexpr Scalar allowed = Scalar(0.0005);
+        Move to_a, to_b;
+        bool any = false;
         for (const Point& point : points) {
             if (point.active && point.separation < -allowed) {
                 const Scalar depth = std::min((-point.separation - allowed) / 8, 3 / rate);
-                apply(point.along, point.along.push_for(depth), body_a, body_b);
-                body_a.orientation = body_a.orientation.normalised();
-                body_b.orientation = body_b.orientation.normalised();
+                point.along.add(point.along.push_for(depth), to_a, to_b);
+                any = true;
             }
+        }
+        if (any) {
+            to_a.apply_to(body_a);
+            to_b.apply_to(body_b);
+            body_a.orientation = body_a.orientation.normalised();
+            body_b.orientation = body_b.orientation.normalised();
         }
     }
 
@@ -236,14 +260,6 @@ private:
         return -normal.dot(body_b.velocity_at(levers.b) - body_a.velocity_at(levers.a));
     }
 
-    static void apply(const PushRow<Scalar>& row, Scalar push, Body& body_a, Body& body_b) {
-        if (push != 0) {
-            Move to_a, to_b;
-            row.add(push, to_a, to_b);
-            to_a.apply_to(body_a);
-            to_b.apply_to(body_b);
-        }
-    }
     void add_rows(const Point& point, Scalar share, bool to_a, Move& move) const {
         point.along.add(point.push * share, to_a, move);
         point.across[0].add(point.rub[0] * share, to_a, move);
@@ -251,46 +267,41 @@ private:
     }
 
     // What all points need alike, at their middle.
-    void push_middle(Body& body_a, Body& body_b) {
-        Scalar sum = 0;
+    void push_middle(Move& to_a, Move& to_b) {
         Scalar least = std::numeric_limits<Scalar>::max();
         for (const Point& point : points) {
-            if (point.active) {
-                sum += gap_now(point, body_a, body_b);
-                least = std::min(least, point.push);
-            }
+            least = point.active ? std::min(least, point.push) : least;
         }
         const Scalar n = static_cast<Scalar>(active_count_);
-        const Scalar more = std::max(-middle_.push_for(sum / n) / n, -least);
+        const Scalar gap = middle_gap_ + middle_.parted(to_a, to_b);
+        const Scalar more = std::max(-middle_.push_for(gap) / n, -least);
         for (Point& point : points) {
             point.push += point.active ? more : 0;
         }
-        apply(middle_, n * more, body_a, body_b);
+        middle_.add(n * more, to_a, to_b);
     }
 
     // Coulomb's cone: both directions across at once.
-    void rub(Point& point, Body& body_a, Body& body_b) {
-        const Vec motion = apart(body_a, point.material_a, body_b, point.material_b) - point.start;
+    void rub(Point& point, Move& to_a, Move& to_b) {
         std::array<Scalar, 2> wanted;
         for (std::size_t i = 0; i < 2; ++i) {
-            wanted[i] = point.rub[i] - point.across[i].push_for(across_[i].dot(motion));
+            const Scalar slip = point.slip[i] + point.across[i].parted(to_a, to_b);
+            wanted[i] = point.rub[i] - point.across[i].push_for(slip);
         }
         const Scalar size = std::hypot(wanted[0], wanted[1]);
         if (size > point.push * static_friction) {
             const Scalar factor = point.push * dynamic_friction / size;
             wanted = {wanted[0] * factor, wanted[1] * factor};
         }
-        Move to_a, to_b;
         for (std::size_t i = 0; i < 2; ++i) {
             point.across[i].add(wanted[i] - point.rub[i], to_a, to_b);
         }
         point.rub = wanted;
-        to_a.apply_to(body_a);
-        to_b.apply_to(body_b);
     }
 
     std::array<Vec, 2> across_;
     PushRow<Scalar> middle_;
+    Scalar middle_gap_ = 0;
     int active_count_ = 0;
 };
 

@@ -58,18 +58,19 @@ public:
 
     // Without giving speed. True: one was exceeded by more than half a degree.
     bool undo(Body& a, Body& b) const {
+        constexpr Scalar more = Scalar(1.5); // the points of the joint hold much of it back
         Scalar beyond = 0;
         Swing swing;
         if (swings_ && find_swing(a, b, swing) && swing.angle > swing.limit) {
             beyond = swing.angle - swing.limit;
-            turn(a, b, swing.axis, push_for(a, b, swing.axis, -beyond));
+            turn(a, b, swing.axis, push_for(a, b, swing.axis, -beyond * more));
         }
         Scalar twist = 0;
         if (twists_ && find_twist(a, b, twist)) {
             const Scalar back = std::clamp(twist, twist_min_, twist_max_) - twist;
             const Vec axis = twist_axis(a, b);
             beyond = std::max(beyond, std::abs(back));
-            turn(a, b, axis, push_for(a, b, axis, back));
+            turn(a, b, axis, push_for(a, b, axis, back * more));
         }
         return beyond > Scalar(1) / 115;
     }

@@ -127,6 +127,7 @@ private:
             motion_.predict(body);
         }
         factor_points();
+        contact_moves_.resize(bodies_.size());
         carry_pushes_on();
         for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
             sweep();
@@ -162,10 +163,12 @@ private:
     void sweep() {
         for_each_joint([](Joint& joint, Body& a, Body& b) { joint.project_turn(a, b); });
         solve_points(true);
+        for_each_contact([](Contact& contact, const Body& a, const Body& b) { contact.measure(a, b); });
         project_contacts(false, false);
         project_contacts(true, false);
         project_contacts(true, true);
         project_contacts(false, true);
+        apply_contact_moves();
         for (std::size_t i = joints_.size(); i-- > 0;) {
             joints_[i].project_turn(bodies_[joints_[i].a], bodies_[joints_[i].b]);
         }
@@ -176,8 +179,15 @@ private:
         for (std::size_t k = 0; k < contacts_.size(); ++k) {
             Contact& contact = contacts_[back ? contacts_.size() - 1 - k : k];
             if (is_shared(contact) == shared) {
-                contact.project(bodies_[contact.a], bodies_[contact.b], back);
+                contact.project(contact_moves_[contact.a], contact_moves_[contact.b], back);
             }
+        }
+    }
+
+    void apply_contact_moves() {
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            contact_moves_[i].apply_to(bodies_[i]);
+            contact_moves_[i] = {};
         }
     }
 
@@ -244,13 +254,11 @@ private:
     void carry_pushes_on() {
         for_each_joint([](Joint& joint, Body& a, Body& b) { joint.turn_again(a, b); });
         for_each_contact([](Contact& contact, const Body& a, const Body& b) { contact.make_rows(a, b); });
-        for_each_contact([](const Contact& contact, Body& a, Body& b) {
-            Move to_a, to_b;
-            contact.add_pushes(true, to_a);
-            contact.add_pushes(false, to_b);
-            to_a.apply_to(a);
-            to_b.apply_to(b);
-        });
+        for (const Contact& contact : contacts_) {
+            contact.add_pushes(true, contact_moves_[contact.a]);
+            contact.add_pushes(false, contact_moves_[contact.b]);
+        }
+        apply_contact_moves();
         solve_points(true);
         if (scale_carried_pushes()) {
             solve_points(true);
@@ -383,6 +391,7 @@ private:
     std::vector<std::size_t> figures_;
     std::vector<Joint> joints_;
     std::vector<Contact> contacts_;
+    std::vector<Move> contact_moves_; // of a contact sweep, by body
     SymmetricSystem<Scalar> points_;
 };
 
