@@ -84,6 +84,6 @@ TEST_CASE("a limb with limits that is thrown on the ground is within 2e-5 m afte
     for (const int substeps : {8, 20}) {
         RigidScene scene(with_substeps(substeps));
         add_limb(scene);
-        check("limb" + substeps_name(substeps) + ", 0.6 s", scene.run({36}).back(), {2e-5, 2e-4, 100});
+        check("limb" + substeps_name(substeps) + ", 0.6 s", scene.run({36}).back(), {2e-5, 2e-4, 50});
     }
 }

@@ -188,14 +188,14 @@ public:
         }
     }
 
-    // Old overlaps beyond half a millimetre: an eighth a substep, at most three metres a second.
+    // Old overlaps beyond half a millimetre: a quarter a substep, at most three metres a second.
     void undo_overlap(Body& body_a, Body& body_b, Scalar rate) const {
         constexpr Scalar allowed = Scalar(0.0005);
         Move to_a, to_b;
         bool any = false;
         for (const Point& point : points) {
             if (point.active && point.separation < -allowed) {
-                const Scalar depth = std::min((-point.separation - allowed) / 8, 3 / rate);
+                const Scalar depth = std::min((-point.separation - allowed) / 4, 3 / rate);
                 point.along.add(point.along.push_for(depth), to_a, to_b);
                 any = true;
             }

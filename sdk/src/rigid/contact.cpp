@@ -204,7 +204,7 @@ void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t le
 }
 
 void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate& rate) {
-    // At most three metres a second, and an eighth of what is left.
+    // At most three metres a second, and a quarter of what is left.
     const std::int64_t most = LKS_FIXED(3) / rate.substeps_per_second;
     Move move_a;
     Move move_b;
@@ -214,7 +214,7 @@ void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate
         if (!point.active || point.separation >= -allowed_overlap) {
             continue;
         }
-        const std::int64_t depth = std::min((-point.separation - allowed_overlap) >> 3, most);
+        const std::int64_t depth = std::min((-point.separation - allowed_overlap) >> 2, most);
         const std::int64_t p = divide(depth, point.rows.inverses[normal_row]);
         const Vec3 along = fixed::scale(contact.normal(), p);
         const auto add = [&](Move& move, const ContactRowSide& side, std::int32_t share, int sign) {
