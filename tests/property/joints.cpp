@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "support/bodies.h"
+#include "support/spun_limb.h"
 
 using namespace support;
 
@@ -122,33 +123,18 @@ TEST_CASE("a ball joint's cone and twist hold a limb that is thrown about") {
 }
 
 TEST_CASE("a limb that has come to its limit has no speed left") {
-    struct Case {
-        lks_joint_kind kind;
-        lks_vec3 spin; // about the joint's axis, y, or across it
-    };
-    for (const Case& c : {Case{LKS_JOINT_HINGE, fixed(0, 4, 0)}, Case{LKS_JOINT_BALL, fixed(0, 4, 0)},
-                          Case{LKS_JOINT_BALL, fixed(0, 0, 4)}}) {
-        lks_world_def weightless = world_def(60, 8);
-        weightless.gravity = {};
-        World world(weightless);
-        const lks_body_id anchor = add_anchor(world, {});
-        lks_body_def def = lks_default_body_def();
-        def.never_sleeps = 1;
-        def.angular_velocity = c.spin;
-        const lks_body_id limb = add_body(world, box_shape(0.1, 0.3, 0.2), {}, def);
-        lks_joint_def joint = lks_default_joint_def();
-        joint.kind = c.kind;
-        joint.swing_limit = fixed(40);
-        joint.twist_min = fixed(-30);
-        joint.twist_max = fixed(30);
-        const lks_joint_id id = add_joint(world, joint, anchor, limb);
-        world.step(60);
-        INFO("kind " << c.kind << ", spin " << metres(c.spin.y) << ", " << metres(c.spin.z));
-        CHECK(state_of(world, limb).spin.length() < 0.01);
-        lks_fixed swing = 0;
-        lks_fixed twist = 0;
-        REQUIRE(lks_joint_angles(world, id, &swing, &twist) == LKS_OK);
-        CHECK(std::abs(metres(c.spin.y != 0 ? twist : swing) - (c.spin.y != 0 ? 30 : 40)) < 0.5);
+    for (const Spin& spin : {Spin{LKS_JOINT_HINGE, fixed(0, 4, 0)}, Spin{LKS_JOINT_BALL, fixed(0, 4, 0)},
+                             Spin{LKS_JOINT_BALL, fixed(0, 0, 4)}}) {
+        lks_joint_def def = lks_default_joint_def();
+        def.swing_limit = fixed(40);
+        def.twist_min = fixed(-30);
+        def.twist_max = fixed(30);
+        SpunLimb spun(spin, def, 8);
+        spun.world.step(60);
+        INFO("kind " << spin.kind << ", spin " << metres(spin.of.y) << ", " << metres(spin.of.z));
+        CHECK(state_of(spun.world, spun.limb).spin.length() < 0.01);
+        const Angles angles = angles_of(spun.world, spun.joint);
+        CHECK(std::abs(spin.twists() ? angles.twist - 30 : angles.swing - 40) < 0.5);
     }
 }
 

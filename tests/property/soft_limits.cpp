@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/bodies.h"
+#include "support/spun_limb.h"
 
 using namespace support;
 
@@ -43,42 +44,32 @@ double turned(const World& world, lks_joint_id joint, bool twist) {
 
 TEST_CASE("what turns against a soft limit swings as far beyond as a spring and a damper let it") {
     struct Case {
-        lks_joint_kind kind;
-        lks_vec3 spin; // about the joint's axis, y, or across it
+        Spin spin;
         double inertia;
     };
     for (const double damping : {0.0, 5.0, 40.0}) {
         for (const Case& c :
-             {Case{LKS_JOINT_HINGE, fixed(0, 4, 0), 0.8}, Case{LKS_JOINT_BALL, fixed(0, -4, 0), 0.8},
-              Case{LKS_JOINT_BALL, fixed(0, 0, 4), 1.6}}) {
-            lks_world_def weightless = world_def(60, 20);
-            weightless.gravity = {};
-            World world(weightless);
-            const lks_body_id anchor = add_anchor(world, {});
-            lks_body_def def = lks_default_body_def();
-            def.never_sleeps = 1;
-            def.angular_velocity = c.spin;
-            const lks_body_id limb = add_body(world, box_shape(0.1, 0.3, 0.2), {}, def);
-            lks_joint_def joint = lks_default_joint_def();
-            joint.kind = c.kind;
-            joint.swing_limit = fixed(30);
-            joint.twist_min = fixed(-30);
-            joint.twist_max = fixed(30);
-            joint.limit_compliance = fixed(0.01);
-            joint.limit_damping = fixed(damping);
-            const lks_joint_id id = add_joint(world, joint, anchor, limb);
-            const bool twists = c.spin.y != 0;
+             {Case{{LKS_JOINT_HINGE, fixed(0, 4, 0)}, 0.8}, Case{{LKS_JOINT_BALL, fixed(0, -4, 0)}, 0.8},
+              Case{{LKS_JOINT_BALL, fixed(0, 0, 4)}, 1.6}}) {
+            lks_joint_def def = lks_default_joint_def();
+            def.swing_limit = fixed(30);
+            def.twist_min = fixed(-30);
+            def.twist_max = fixed(30);
+            def.limit_compliance = fixed(0.01);
+            def.limit_damping = fixed(damping);
+            SpunLimb spun(c.spin, def, 20);
+            World& world = spun.world;
             double furthest = 0, fastest = 0, speed = 0;
             for (int tick = 0; tick < 40; ++tick) {
                 world.step();
-                furthest = std::max(furthest, std::abs(turned(world, id, twists)));
-                speed = state_of(world, limb).spin.length();
+                furthest = std::max(furthest, std::abs(turned(world, spun.joint, c.spin.twists())));
+                speed = state_of(world, spun.limb).spin.length();
                 fastest = std::max(fastest, speed);
             }
             const Rebound expected = expected_rebound(c.inertia, 0.01, damping, 4);
-            INFO("kind " << c.kind << ", inertia " << c.inertia << ", damping " << damping << ": furthest "
-                         << furthest - 30 * degree << " of " << expected.furthest << " rad, back at " << speed
-                         << " of " << expected.speed << " rad/s");
+            INFO("kind " << c.spin.kind << ", inertia " << c.inertia << ", damping " << damping
+                         << ": furthest " << furthest - 30 * degree << " of " << expected.furthest
+                         << " rad, back at " << speed << " of " << expected.speed << " rad/s");
             CHECK(std::abs(furthest - 30 * degree - expected.furthest) < 0.03 * expected.furthest);
             CHECK(std::abs(speed - expected.speed) < 0.1);
             CHECK(fastest < 4 + 1e-3);
