@@ -1,5 +1,6 @@
 // A cloth of 64 × 64 vertices and 23,938 constraints starts level, held at two corners, and swings down. The
-// corners come together, so that it hangs in folds: a stiff sheet between corners at full width has none.
+// corners come together, so that it hangs in folds: a stiff sheet between corners at full width has none. Tethers
+// to both corners keep it from stretching where it is caught.
 #include "scenes/scene_list.h"
 #include "scenes/time_curves.h"
 
@@ -7,6 +8,7 @@ namespace lks_demo {
 namespace {
 
 constexpr std::uint32_t side = 64;
+constexpr std::uint32_t corners[] = {0, side - 1};
 constexpr std::int64_t half_width = 1600; // mm
 constexpr std::int64_t height_of_corners = 3500;
 
@@ -25,6 +27,8 @@ private:
         def.area_density = 0.2;
         def.shear.compliance = 1e-6;
         def.bend.compliance = 1e-4;
+        def.tether_anchors = corners;
+        def.tether_anchor_count = 2;
         const lks_asset* asset = nullptr;
         lks_object_def object = lks_default_object_def();
         // The sheet lies level behind the corners, its front up, and swings forward.
@@ -38,7 +42,7 @@ private:
             return false;
         }
         look_as_grid(def, look);
-        return pin(last_object(), 0) && pin(last_object(), side - 1);
+        return pin(last_object(), corners[0]) && pin(last_object(), corners[1]);
     }
 
     bool apply_inputs(lks_fixed seconds) override {
@@ -48,7 +52,7 @@ private:
             const lks_vec3 target = place({to, millimetres(height_of_corners), 0});
             return accept(lks_object_set_pin_target(world(), last_object(), vertex, target));
         };
-        return move(0, -x) && move(side - 1, x);
+        return move(corners[0], -x) && move(corners[1], x);
     }
 };
 
