@@ -1,9 +1,27 @@
 #!/usr/bin/env bash
 # Compiles the SDK to WebAssembly, fetches the peers' packages of WebAssembly into the build folder, and
 # compares them under node.
-# usage: bench/web/run.sh [cloth] [--ticks N] [--side N] [--json]
-#        bench/web/run.sh crowd [--ticks N] [--crowd block|pile] [--only TEXT] [--json]
 set -euo pipefail
+
+usage() {
+    cat <<'TEXT'
+usage: bench/web/run.sh [cloth] [--ticks N] [--side N] [--json]
+       bench/web/run.sh crowd [--ticks N] [--crowd block|pile] [--only TEXT] [--json]
+
+Compiles the SDK to WebAssembly (some minutes, the first time), fetches Jolt Physics and Rapier from npm and
+lets all take turns under node: one hanging cloth, or a crowd of falling humanoids.
+
+  --ticks N    how many ticks of 1/60 s
+  --side N     vertices along an edge of the cloth
+  --crowd      block: 100 humanoids on a plane; pile: 30 in a pit
+  --only TEXT  only the contenders whose names match, as a regular expression
+  --json       as JSON
+  --help       this text
+
+  bench/web/run.sh
+  bench/web/run.sh crowd --ticks 60 --only 'SIMD, 1 (sub)?step'
+TEXT
+}
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=$root/build/web
 packages=(jolt-physics@1.1.0
@@ -14,6 +32,17 @@ if [ "${1:-}" = cloth ] || [ "${1:-}" = crowd ]; then
     race=$1
     shift
 fi
+options=" $* "
+if [[ "$options" == *" --help "* || "$options" == *" -h "* ]]; then
+    usage
+    exit 0
+fi
+for word in "$@"; do
+    case "$word" in
+        --ticks | --side | --crowd | --only | --json | --*=* | [!-]*) ;;
+        *) echo "The option '$word' does not exist; bench/web/run.sh --help lists them." >&2; exit 2 ;;
+    esac
+done
 
 demand() {  # command, what it belongs to
     command -v "$1" >/dev/null && return

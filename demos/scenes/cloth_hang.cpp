@@ -1,6 +1,6 @@
 // A cloth of 64 × 64 vertices and 23,938 constraints starts level, held at two corners, and swings down. The
-// corners come together, so that it hangs in folds: a stiff sheet between corners at full width has none. Tethers
-// to both corners keep it from stretching where it is caught.
+// corners come together, so that it hangs in folds: a stiff sheet between corners at full width has none.
+// Tethers to both keep it from stretching where it is caught.
 #include "scenes/scene_list.h"
 #include "scenes/time_curves.h"
 
