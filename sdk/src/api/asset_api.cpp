@@ -39,6 +39,7 @@ lks_result create_asset(const Def* def, lks_asset** asset, lks_asset::Kind kind,
         release_asset(made);
         return result;
     }
+    made->fingerprint = compute_fingerprint(*made);
     *asset = made;
     return report(def->error, LKS_OK, Sentence());
 }

@@ -230,7 +230,6 @@ lks_result assemble(Build& build) {
     if (!find_spare_particles(build.asset) || !list_incidences(build.asset)) {
         return build.fail_out_of_memory();
     }
-    build.asset.fingerprint = compute_fingerprint(build.asset);
     return LKS_OK;
 }
 

@@ -36,7 +36,7 @@ struct Build {
 };
 
 // Turns a complete build into the asset: particles in their order, constraints in batches and runs, rest
-// lengths, incidences, fingerprint.
+// lengths, incidences.
 lks_result assemble(Build& build);
 
 // The exact distance of two positions, rounded to the nearest coordinate unit; INT64_MAX from 128 m on.
@@ -44,6 +44,7 @@ std::int64_t distance_between(const Coordinates& a, const Coordinates& b);
 // The exact square of it in units of 2^-112 m².
 fixed::UInt128 squared_distance(const Coordinates& a, const Coordinates& b);
 
+// Of a complete asset.
 std::uint64_t compute_fingerprint(const lks_asset& asset);
 
 } // namespace lks

@@ -312,7 +312,6 @@ lks_result build_tethers(Build& build, const lks_cloth_def& def) {
     if (!nearest.find() || !Placing(asset, rows).run(nearest)) {
         return build.fail_out_of_memory();
     }
-    asset.fingerprint = compute_fingerprint(asset);
     return LKS_OK;
 }
 

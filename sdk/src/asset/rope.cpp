@@ -181,7 +181,6 @@ lks_result build_rope(Build& build, const lks_rope_def& def) {
     if (is_solved_directly(build, def) && !list_chain(build.asset)) {
         return build.fail_out_of_memory();
     }
-    build.asset.fingerprint = compute_fingerprint(build.asset);
     return LKS_OK;
 }
 

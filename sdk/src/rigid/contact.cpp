@@ -13,6 +13,7 @@ using fixed::Vec3;
 
 // Overlaps up to this stay: half a millimetre.
 constexpr std::int64_t allowed_overlap = (std::int64_t{1} << world_fraction_bits) / 2000;
+
 Vec3 cross(const Vec3& spin, const Vec3& lever) {
     // World · World, spins to 22 bits behind the point and levers to 24; a collider's lever may be very long.
     const auto m = [](std::int64_t a, std::int64_t b) {

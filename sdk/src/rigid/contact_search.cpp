@@ -261,17 +261,14 @@ private:
         constexpr std::uint32_t pairs_a_block = 64;
         static_cast<void>(scene_.found.resize(contact_capacity(scene_.bodies.size()))); // within its room
         std::atomic<std::uint32_t> count{0};
-        run_blocks(team_, static_cast<std::uint32_t>(scene_.pairs.size()), pairs_a_block,
-                   [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
-                       for (std::uint32_t i = first; i < end; ++i) {
-                           for_each_found(scene_.pairs[i], [&](const FoundContact& found) {
-                               const std::uint32_t at = count.fetch_add(1, std::memory_order_relaxed);
-                               if (at < scene_.found.size()) {
-                                   scene_.found[at] = found;
-                               }
-                           });
-                       }
-                   });
+        run_each(team_, scene_.pairs.size(), pairs_a_block, [&](std::uint32_t i, std::uint32_t) {
+            for_each_found(scene_.pairs[i], [&](const FoundContact& found) {
+                const std::uint32_t at = count.fetch_add(1, std::memory_order_relaxed);
+                if (at < scene_.found.size()) {
+                    scene_.found[at] = found;
+                }
+            });
+        });
         const std::uint32_t found_count = count.load(std::memory_order_relaxed);
         if (found_count > scene_.found.size()) {
             return false;

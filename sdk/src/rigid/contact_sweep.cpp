@@ -1,6 +1,7 @@
 // Contacts one after the other, each upon what the others have done: Gauss and Seidel's sweeps. Bodies stay
-// where they are meanwhile; how far a point has gone follows from its body's move to first order, which costs
-// a third of moving the bodies each time. Where they all have got to is measured anew in each iteration.
+// where they are meanwhile; how far a point has gone follows from its body's move to first order, which takes
+// 0.6 of the instructions of moving the bodies each time. Where they all have got to is measured anew in each
+// iteration.
 #include <algorithm>
 
 #include "rigid/contact.h"

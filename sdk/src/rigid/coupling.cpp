@@ -78,9 +78,7 @@ private:
         scene_.overlaps.for_each_pair(
             [this](std::uint32_t i, std::uint32_t j) { add_pair(scene_.boxed[i], scene_.boxed[j]); });
         std::sort(scene_.object_pairs.begin(), scene_.object_pairs.end());
-        for (std::size_t i = 0; i < scene_.object_pairs.size(); ++i) {
-            scene_.object_impulses.push_reserved(0);
-        }
+        static_cast<void>(scene_.object_impulses.resize(scene_.object_pairs.size())); // within its room
     }
 
     // Bodies stand before objects.

@@ -282,15 +282,6 @@ void add_push(Move& move, const PushRow& row, std::int32_t share, std::int32_t t
     move.half_turn = clamped_turn(move.half_turn + half_turn_of(row.turn, share, turn_shift, p, sign));
 }
 
-void add_push(Move& move, const RowSide& side, const Vec3& p_normal, std::int64_t p, int sign) {
-    if (side.share == 0) {
-        return;
-    }
-    const auto moved = [&](std::int64_t c) { return sign * fixed::scale_component(side.share, c); };
-    move.shift = move.shift + Vec3{moved(p_normal.x), moved(p_normal.y), moved(p_normal.z)};
-    move.half_turn = move.half_turn + half_turn_of(side, p, sign);
-}
-
 void apply(Body& body, const Move& move) {
     body.position = body.position + move.shift;
     turn_body(body, move.half_turn);
@@ -298,7 +289,7 @@ void apply(Body& body, const Move& move) {
 
 void push(Body& body, const RowSide& side, const Vec3& p_normal, std::int64_t p, int sign) {
     Move move;
-    add_push(move, side, p_normal, p, sign);
+    add_push(move, {{}, side.turn}, side.share, side.turn_shift, p_normal, p, sign);
     apply(body, move);
 }
 

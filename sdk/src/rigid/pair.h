@@ -116,8 +116,6 @@ inline std::int64_t turned_along(const PushRow& row, std::int32_t arm_shift, con
                                           row.arm.z * move.half_turn.z,
                                       arm_shift);
 }
-// The same, not clamped.
-void add_push(Move& move, const RowSide& side, const fixed::Vec3& p_normal, std::int64_t p, int sign);
 void apply(Body& body, const Move& move);
 // Moves a body at once.
 void push(Body& body, const RowSide& side, const fixed::Vec3& p_normal, std::int64_t p, int sign);

@@ -57,12 +57,8 @@ ContactBodies RigidSubstep::bodies_of(const Contact& contact) {
 // Each by itself: use(contact).
 template <typename Use>
 void RigidSubstep::in_contacts(const Use& use) {
-    run_blocks(team_, static_cast<std::uint32_t>(scene_.contacts.size()), contacts_a_block,
-               [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
-                   for (std::uint32_t i = first; i < end; ++i) {
-                       use(scene_.contacts[i]);
-                   }
-               });
+    run_each(team_, scene_.contacts.size(), contacts_a_block,
+             [&](std::uint32_t i, std::uint32_t) { use(scene_.contacts[i]); });
 }
 
 // use(figure)
@@ -124,20 +120,17 @@ void RigidSubstep::strike_all() {
 }
 
 void RigidSubstep::predict(std::uint32_t substep) {
-    run_blocks(team_, static_cast<std::uint32_t>(scene_.bodies.size()), bodies_a_block,
-               [&](std::uint32_t first, std::uint32_t end, std::uint32_t worker) {
-                   for (std::uint32_t i = first; i < end; ++i) {
-                       Body& body = scene_.bodies[i];
-                       if (body.is_awake()) {
-                           predict_body(body, scene_.descriptions[i], scene_.ticks[i], rate_,
-                                        world_.scratch[worker].counters.speed_clamps);
-                           body.uncarried_position = body.position;
-                           body.uncarried_orientation = body.orientation;
-                       } else if (scene_.body_slots[i].used && !body.is_dynamic()) {
-                           place_kinematic(body, substep, world_.rate.substeps, rate_);
-                       }
-                   }
-               });
+    run_each(team_, scene_.bodies.size(), bodies_a_block, [&](std::uint32_t i, std::uint32_t worker) {
+        Body& body = scene_.bodies[i];
+        if (body.is_awake()) {
+            predict_body(body, scene_.descriptions[i], scene_.ticks[i], rate_,
+                         world_.scratch[worker].counters.speed_clamps);
+            body.uncarried_position = body.position;
+            body.uncarried_orientation = body.orientation;
+        } else if (scene_.body_slots[i].used && !body.is_dynamic()) {
+            place_kinematic(body, substep, world_.rate.substeps, rate_);
+        }
+    });
     for (std::size_t i = 0; i < world_.colliders.size(); ++i) {
         if (world_.colliders[i].used && world_.colliders[i].collider.moves()) {
             place_kinematic(scene_.collider_bodies[i], substep, world_.rate.substeps, rate_);
@@ -229,12 +222,8 @@ void RigidSubstep::iterate(std::uint32_t substep) {
         for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) { project_contact(i, false); });
     });
     const Array<std::uint32_t>& shared = scene_.shared_contacts;
-    run_blocks(team_, static_cast<std::uint32_t>(shared.size()), contacts_a_block,
-               [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
-                   for (std::uint32_t i = first; i < end; ++i) {
-                       measure_contact(shared[i]);
-                   }
-               });
+    run_each(team_, shared.size(), contacts_a_block,
+             [&](std::uint32_t i, std::uint32_t) { measure_contact(shared[i]); });
     for (std::size_t i = 0; i < shared.size(); ++i) {
         project_contact(shared[i], false);
     }
@@ -284,15 +273,12 @@ void RigidSubstep::collide_objects(std::uint32_t substep) {
 }
 
 void RigidSubstep::finish() {
-    run_blocks(team_, static_cast<std::uint32_t>(scene_.bodies.size()), bodies_a_block,
-               [&](std::uint32_t first, std::uint32_t end, std::uint32_t worker) {
-                   for (std::uint32_t i = first; i < end; ++i) {
-                       if (scene_.bodies[i].is_awake()) {
-                           finish_body(scene_.bodies[i], scene_.descriptions[i], rate_,
-                                       world_.scratch[worker].counters.speed_clamps);
-                       }
-                   }
-               });
+    run_each(team_, scene_.bodies.size(), bodies_a_block, [&](std::uint32_t i, std::uint32_t worker) {
+        if (scene_.bodies[i].is_awake()) {
+            finish_body(scene_.bodies[i], scene_.descriptions[i], rate_,
+                        world_.scratch[worker].counters.speed_clamps);
+        }
+    });
     if (world_.event_log.wants_contacts()) {
         in_contacts([this](Contact& contact) { add_up_pushes(contact, rate_); });
     }

@@ -1,7 +1,5 @@
 #include "rigid/rigid_tick.h"
 
-#include <algorithm>
-
 #include "rigid/articulation.h"
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"
@@ -114,8 +112,8 @@ private:
     }
 
     void run_substeps() {
+        scene_.contact_moves.clear();
         static_cast<void>(scene_.contact_moves.resize(scene_.bodies.size() + 1)); // within its room
-        std::fill(scene_.contact_moves.begin(), scene_.contact_moves.end(), Move{});
         RigidSubstep rigid_substep(world_, team_);
         for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
             rigid_substep.run(substep);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "threads/team.h"
@@ -31,6 +32,17 @@ void run_blocks(Team* team, std::uint32_t count, std::uint32_t size, const Use& 
         c.use(first, std::min(c.size, c.count - first) + first, worker);
     };
     team->run({run, &context, (count + context.size - 1) / context.size});
+}
+
+// Calls use(index, worker) for each element, in the same way.
+template <typename Use>
+void run_each(Team* team, std::size_t count, std::uint32_t size, const Use& use) {
+    run_blocks(team, static_cast<std::uint32_t>(count), size,
+               [&](std::uint32_t first, std::uint32_t end, std::uint32_t worker) {
+                   for (std::uint32_t i = first; i < end; ++i) {
+                       use(i, worker);
+                   }
+               });
 }
 
 } // namespace lks
