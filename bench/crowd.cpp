@@ -3,10 +3,6 @@
 namespace lks_bench {
 namespace {
 
-lks_vec3 millimetres(int x, int y, int z) {
-    return {LKS_FIXED_RATIO(x, 1000), LKS_FIXED_RATIO(y, 1000), LKS_FIXED_RATIO(z, 1000)};
-}
-
 bool is_small(std::uint32_t bone) {
     return bone == LKS_HUMANOID_HEAD || bone == LKS_HUMANOID_HAND_LEFT || bone == LKS_HUMANOID_HAND_RIGHT;
 }

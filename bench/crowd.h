@@ -10,6 +10,10 @@
 
 namespace lks_bench {
 
+inline lks_vec3 millimetres(int x, int y, int z) {
+    return {LKS_FIXED_RATIO(x, 1000), LKS_FIXED_RATIO(y, 1000), LKS_FIXED_RATIO(z, 1000)};
+}
+
 struct CrowdWall {
     lks_vec3 position;
     lks_vec3 half_extents;

@@ -13,10 +13,6 @@ constexpr int chest_y = 1285;
 constexpr int shoulders = 410; // of the held edge, which is drawn together to them
 constexpr std::uint32_t rope_segments = 15;
 
-lks_vec3 millimetres(int x, int y, int z) {
-    return {LKS_FIXED_RATIO(x, 1000), LKS_FIXED_RATIO(y, 1000), LKS_FIXED_RATIO(z, 1000)};
-}
-
 lks_vec3 sum(const lks_vec3& a, const lks_vec3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }

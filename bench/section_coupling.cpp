@@ -4,43 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "crowd_errors.h"
 #include "dressed_crowd.h"
 #include "sections.h"
 
 namespace lks_bench {
 namespace {
 
-// Mean and worst of all ticks.
-class Errors {
-public:
-    void add(const std::vector<double>& errors) {
-        for (const double error : errors) {
-            sum_ += error;
-            worst_ = std::max(worst_, error);
-        }
-        count_ += errors.size();
-    }
-    void report(const char* measured, const std::string& variant, Results& results) const {
-        if (count_ != 0) {
-            const std::string name = measured;
-            results.push_back(
-                {coupling_name, name + ", mean", variant, 1000 * sum_ / static_cast<double>(count_), "mm"});
-            results.push_back({coupling_name, name + ", worst", variant, 1000 * worst_, "mm"});
-        }
-    }
-
-private:
-    double sum_ = 0;
-    double worst_ = 0;
-    std::size_t count_ = 0;
-};
-
 struct Run {
     std::string name;
     std::unique_ptr<DressedCrowd> dressed;
     std::vector<double> times{}; // ms
-    Errors joints{};
-    Errors attachments{};
+    CrowdErrors joints{};
+    CrowdErrors attachments{};
 
     void tick(bool settled) {
         const auto start = std::chrono::steady_clock::now();
@@ -65,9 +41,7 @@ struct Run {
 } // namespace
 
 void measure_coupling(int rounds, Results& results) {
-    // All of it, but where a quick look is asked for.
-    constexpr int enough_rounds = 21;
-    const int ticks = rounds < enough_rounds ? 3 * rounds : 300;
+    const int ticks = fall_ticks(rounds);
     const int settled_after = std::min(ticks - 1, 6);
     struct Kind {
         const char* name;
@@ -102,8 +76,8 @@ void measure_coupling(int rounds, Results& results) {
         results.push_back({coupling_name, "whole tick", run.name, mean, "ms", mean / runs.front().mean()});
     }
     for (const Run& run : runs) {
-        run.joints.report("joint error", run.name, results);
-        run.attachments.report("attachment error", run.name, results);
+        run.joints.report(coupling_name, "joint error", run.name, results);
+        run.attachments.report(coupling_name, "attachment error", run.name, results);
     }
 }
 

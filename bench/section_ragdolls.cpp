@@ -2,9 +2,9 @@
 #include <chrono>
 #include <cstring>
 #include <memory>
-#include <numeric>
 
 #include "bullet_crowd.h"
+#include "crowd_errors.h"
 #include "measure.h"
 #include "our_crowd.h"
 #include "sections.h"
@@ -18,9 +18,7 @@ struct Run {
     std::unique_ptr<CrowdWorld> world;
     double milliseconds = 0;
     double slowest = 0;
-    double sum = 0;
-    std::size_t count = 0;
-    double worst = 0;
+    CrowdErrors errors{};
     double least_energy = 0;
     double gained = 0;
 
@@ -31,10 +29,7 @@ struct Run {
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         milliseconds += taken;
         slowest = std::max(slowest, taken);
-        const std::vector<double> errors = world->joint_errors();
-        sum = std::accumulate(errors.begin(), errors.end(), sum);
-        count += errors.size();
-        worst = std::max(worst, *std::max_element(errors.begin(), errors.end()));
+        errors.add(world->joint_errors());
         const double energy = world->energy();
         gained = std::max(gained, energy - least_energy);
         least_energy = std::min(least_energy, energy);
@@ -61,9 +56,7 @@ void measure_snapshots_of(const char* name, lks_world* world, int rounds, Result
 }
 
 void measure_fall(const char* name, const Crowd& crowd, int rounds, Results& results) {
-    // All of it, but where a quick look is asked for.
-    constexpr int enough_rounds = 21;
-    const int ticks = rounds < enough_rounds ? 3 * rounds : 300;
+    const int ticks = fall_ticks(rounds);
     std::vector<Run> runs;
     lks_world* first = nullptr;
     for (const std::uint32_t substeps : {8u, 4u, 2u, 1u}) {
@@ -94,9 +87,7 @@ void measure_fall(const char* name, const Crowd& crowd, int rounds, Results& res
     }
     for (const Run& run : runs) {
         results.push_back({name, "slowest tick", run.name, run.slowest, "ms"});
-        results.push_back(
-            {name, "joint error, mean", run.name, 1000 * run.sum / static_cast<double>(run.count), "mm"});
-        results.push_back({name, "joint error, worst", run.name, 1000 * run.worst, "mm"});
+        run.errors.report(name, "joint error", run.name, results);
         results.push_back({name, "energy gained", run.name, run.gained, "J"});
     }
     measure_snapshots_of(name, first, rounds, results);

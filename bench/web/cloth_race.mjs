@@ -1,29 +1,15 @@
 // The same cloth in Lockstitch and in Jolt Physics, both as WebAssembly on one thread: nanoseconds per
 // constraint projection, and the stretch that is left, since cost means nothing without error.
 // usage: node cloth_race.mjs --build FOLDER [--ticks N] [--side N] [--json]    FOLDER: as run.sh makes it
-import { resolve } from 'node:path';
-import { parseArgs } from 'node:util';
 import { Stretch } from './cloth_shape.mjs';
 import { JoltCloth } from './jolt_cloth.mjs';
 import { createJolt, joltVersion } from './jolt_system.mjs';
 import { LockstitchCloth } from './lockstitch_cloth.mjs';
+import { readOptions } from './options.mjs';
 import { demandSameHash, median, race } from './race.mjs';
 
-const { values: options } = parseArgs({
-    options: {
-        build: { type: 'string', default: 'build/web' },
-        ticks: { type: 'string', default: '300' },
-        side: { type: 'string', default: '64' },
-        json: { type: 'boolean', default: false },
-    },
-});
-const build = resolve(options.build);
-const ticks = Number(options.ticks);
-const side = Number(options.side);
-if (!Number.isInteger(ticks) || ticks < 1 || !Number.isInteger(side) || side < 3) {
-    console.error('--ticks takes a whole number from 1, --side one from 3.');
-    process.exit(2);
-}
+const options = readOptions('cloth');
+const { build, ticks, side } = options;
 const passes = 20; // over every constraint, a tick
 
 async function lockstitchContenders(schedule) {

@@ -3,39 +3,18 @@
 // usage: node crowd_race.mjs --build FOLDER [--ticks N] [--crowd block|pile] [--only TEXT] [--json]
 //   FOLDER: as run.sh makes it; block: 100 on a plane, pile: 30 in a pit; TEXT: what the names of those who
 //   run must match
-import { resolve } from 'node:path';
-import { parseArgs } from 'node:util';
 import { CrowdMeasure, CrowdRun } from './crowd_errors.mjs';
 import { inertia } from './crowd_shape.mjs';
 import { JoltCrowd } from './jolt_crowd.mjs';
 import { createJolt, joltVersion } from './jolt_system.mjs';
 import { LockstitchCrowds } from './lockstitch_crowd.mjs';
+import { demand, readOptions } from './options.mjs';
 import { demandSameHash, median, race } from './race.mjs';
 import { RapierCrowd, loadRapier } from './rapier_crowd.mjs';
 
-const { values: options } = parseArgs({
-    options: {
-        build: { type: 'string', default: 'build/web' },
-        ticks: { type: 'string', default: '300' },
-        crowd: { type: 'string', default: 'block' },
-        only: { type: 'string', default: '' },
-        json: { type: 'boolean', default: false },
-    },
-});
-const build = resolve(options.build);
-const ticks = Number(options.ticks);
-if (!Number.isInteger(ticks) || ticks < 1 || !['block', 'pile'].includes(options.crowd)) {
-    console.error('--ticks takes a whole number from 1, --crowd takes block or pile.');
-    process.exit(2);
-}
-
+const options = readOptions('crowd');
+const { build, ticks } = options;
 const ourSubsteps = [8, 4, 2, 1];
-
-function demand(condition, sentence) {
-    if (!condition) {
-        throw new Error(sentence);
-    }
-}
 
 async function loadOurs(folder) {
     return LockstitchCrowds.load(`${build}/${folder}/lockstitch_crowd.js`, options.crowd === 'pile');
@@ -85,7 +64,7 @@ function allContenders() {
     for (const steps of [1, 4]) {
         addRapier(`deterministic, ${plural(steps, 'step')}`, { steps }, 'deterministic');
     }
-    return list.filter(({ name }) => new RegExp(options.only).test(name));
+    return list.filter(({ name }) => options.only.test(name));
 }
 
 // A peer must be given what ours is: the masses, the moments of inertia, and joints at rest.

@@ -1,6 +1,7 @@
 // The cloth in Lockstitch, by the functions of hanging_cloth.c.
 import { edges, width } from './cloth_shape.mjs';
 import { hexHash, loadModule, readNumbers } from './lockstitch_module.mjs';
+import { demand } from './options.mjs';
 
 export class LockstitchCloth {
     // `path` is the module that emscripten made.
@@ -12,9 +13,7 @@ export class LockstitchCloth {
         this.module = module;
         this.count = side * side;
         this.cloth = module._cloth_create(side, width, substeps, iterations);
-        if (this.cloth === 0) {
-            throw new Error(`Lockstitch refused a cloth of ${side} x ${side}.`);
-        }
+        demand(this.cloth !== 0, `Lockstitch refused a cloth of ${side} x ${side}.`);
         this.constraints = module._cloth_constraint_count(this.cloth);
         this.#demandSameEdges(edges(side));
     }
@@ -46,8 +45,7 @@ export class LockstitchCloth {
             missing.delete(key(pairs[i], pairs[i + 1]));
         }
         this.module._free(memory);
-        if (missing.size !== 0 || this.constraints !== expected.length) {
-            throw new Error('Lockstitch and Jolt would not be given the same edges.');
-        }
+        demand(missing.size === 0 && this.constraints === expected.length,
+            'Lockstitch and Jolt would not be given the same edges.');
     }
 }

@@ -37,12 +37,6 @@ if [[ "$options" == *" --help "* || "$options" == *" -h "* ]]; then
     usage
     exit 0
 fi
-for word in "$@"; do
-    case "$word" in
-        --ticks | --side | --crowd | --only | --json | --*=* | [!-]*) ;;
-        *) echo "The option '$word' does not exist; bench/web/run.sh --help lists them." >&2; exit 2 ;;
-    esac
-done
 
 demand() {  # command, what it belongs to
     command -v "$1" >/dev/null && return
@@ -54,6 +48,7 @@ demand node "Node.js"
 demand npm "Node's package manager"
 demand cmake "CMake, on Debian the package cmake"
 demand ninja "Ninja, on Debian the package ninja-build"
+node "$root/bench/web/options.mjs" "$race" "$@"
 
 quietly() {  # the output of what succeeds is of no interest
     "$@" >"$build/run.log" 2>&1 </dev/null || { tail -n 40 "$build/run.log" >&2; exit 1; }

@@ -1,0 +1,32 @@
+// What is measured of a fall: for how long, and how far joints or attachments were apart.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results.h"
+
+namespace lks_bench {
+
+// Mean and worst of all ticks.
+class CrowdErrors {
+public:
+    // Of one tick, metres.
+    void add(const std::vector<double>& errors);
+    // In millimetres; nothing where there was nothing.
+    void report(const char* workload, const std::string& measured, const std::string& variant,
+                Results& results) const;
+
+private:
+    double sum_ = 0;
+    double worst_ = 0;
+    std::size_t count_ = 0;
+};
+
+// All of it, but where a quick look is asked for.
+constexpr int fall_ticks(int rounds) {
+    constexpr int enough_rounds = 21;
+    return rounds < enough_rounds ? 3 * rounds : 300;
+}
+
+} // namespace lks_bench
