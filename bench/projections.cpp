@@ -1,8 +1,8 @@
 #include "projections.h"
 
 #include <cstring>
-
-#include "solver/distance.h"
+#include <new>
+#include <utility>
 
 namespace lks_bench {
 
@@ -17,17 +17,21 @@ Projections::Projections(lks_world* world) : world_(world) {
                                          object.start_axis(1),
                                          object.start_axis(2),
                                          object.multipliers.empty() ? nullptr : object.multipliers.data()};
-        tasks_.emplace_back();
-        for (std::uint32_t b = 0; b < object.asset().batches.size(); ++b) {
-            tasks_.back().push_back(whole_batch(object.asset(), object.coefficients(), b, arrays));
+        const std::size_t batches = object.asset().batches.size();
+        lks::DistanceWork work{lks::Array<lks::BatchPart>(world->allocator),
+                               lks::Array<lks::DistanceTask>(world->allocator)};
+        if (!work.parts.reserve(batches) || !work.tasks.reserve(batches)) {
+            throw std::bad_alloc();
         }
+        prepare_distances(object.asset(), object.coefficients(), arrays, work);
+        work_.push_back(std::move(work));
     }
 }
 
 void Projections::run(std::uint32_t passes) {
-    for (const std::vector<lks::DistanceTask>& object : tasks_) {
+    for (const lks::DistanceWork& object : work_) {
         for (std::uint32_t pass = 0; pass < passes; ++pass) {
-            for (const lks::DistanceTask& task : object) {
+            for (const lks::DistanceTask& task : object.tasks) {
                 world_->kernels->project_distances(task);
             }
         }

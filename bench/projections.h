@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/distance.h"
 #include "solver/world.h"
 
 namespace lks_bench {
@@ -19,7 +20,7 @@ public:
 
 private:
     lks_world* world_;
-    std::vector<std::vector<lks::DistanceTask>> tasks_; // by object
+    std::vector<lks::DistanceWork> work_; // by object
     std::vector<std::vector<std::int64_t>> saved_;
 };
 

@@ -75,6 +75,7 @@ struct Problem {
     std::vector<std::int64_t> positions; // x, y, z, starts
     std::vector<std::int64_t> multipliers;
     std::vector<std::uint32_t> rests, shares_a, shares_b, relaxations;
+    ConstraintRange unequal_shares{};
     DistanceParameters parameters{};
 };
 
@@ -107,14 +108,25 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
         problem.positions[i] = signed_below(random, 61);
     }
     const std::size_t padded = count + widest_group - 1;
+    // Everywhere, or in a part.
+    if (!kind.equal_shares) {
+        problem.unequal_shares = {0, static_cast<std::uint32_t>(count)};
+        if (random.below(2) == 0) {
+            problem.unequal_shares.first = static_cast<std::uint32_t>(random.bits() % count);
+            problem.unequal_shares.last =
+                problem.unequal_shares.first + 1 +
+                static_cast<std::uint32_t>(random.bits() % (count - problem.unequal_shares.first));
+        }
+    }
     for (std::size_t i = 0; i < count; ++i) {
         problem.rests.push_back(static_cast<std::uint32_t>(0x80000000u | random.bits() >> 33) >>
                                 (random.bits() % 4 == 0 ? random.bits() % 4 : 0));
         const auto share = static_cast<std::uint32_t>(random.bits() >> 33);
-        const bool equal = kind.equal_shares || random.bits() % 8 != 0;
+        const bool may_differ = is_in(problem.unequal_shares, static_cast<std::uint32_t>(i));
+        const bool equal = !may_differ || random.bits() % 8 != 0;
         problem.shares_a.push_back(share);
         problem.shares_b.push_back(equal ? share : static_cast<std::uint32_t>(random.bits() >> 33));
-        if (random.bits() % 16 == 0 && !kind.equal_shares) {
+        if (random.bits() % 16 == 0 && may_differ) {
             problem.shares_a.back() = 0;
             problem.shares_b.back() = unit_one - 1;
         }
@@ -167,23 +179,29 @@ Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Pro
                ConstraintRange range) {
     const std::uint32_t n = batch.particles;
     std::int64_t* x = problem.positions.data();
-    DistanceTask task{};
-    task.range = range;
-    task.runs = batch.runs.data();
-    task.run_count = static_cast<std::uint32_t>(batch.runs.size());
-    while (task.run_count != 0 && task.runs->first + task.runs->count <= range.first) {
-        ++task.runs;
-        --task.run_count;
+    BatchPart part{};
+    part.range = range;
+    part.runs = batch.runs.data();
+    part.run_count = static_cast<std::uint32_t>(batch.runs.size());
+    while (part.run_count != 0 && part.runs->first + part.runs->count <= range.first) {
+        ++part.runs;
+        --part.run_count;
     }
+    part.whole = range.first == 0 && range.last == batch.constraints.size();
+    part.first_single = batch.first_single;
+    part.unequal_shares = problem.unequal_shares;
+    DistanceTask task{};
+    task.parts = &part;
+    task.part_count = 1;
     task.short_runs = batch.runs.size() % 2 == 0; // kernels may believe it or not
-    task.whole_batch = range.first == 0 && range.last == batch.constraints.size();
-    task.first_single = batch.first_single;
+    task.soft = kind.soft;
+    task.damped = kind.damped;
+    task.parameters = problem.parameters;
     task.constraints = batch.constraints.data();
     task.rest_mantissas = problem.rests.data();
     task.shares_a = problem.shares_a.data();
     task.shares_b = problem.shares_b.data();
     task.relaxations = kind.relaxed ? problem.relaxations.data() : nullptr;
-    task.parameters = problem.parameters;
     task.arrays = {x,
                    x + n,
                    x + 2 * n,
@@ -191,9 +209,6 @@ Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Pro
                    x + 4 * n,
                    x + 5 * n,
                    kind.multiplier ? problem.multipliers.data() : nullptr};
-    task.equal_shares = kind.equal_shares;
-    task.soft = kind.soft;
-    task.damped = kind.damped;
     kernels.project_distances(task);
     return problem;
 }

@@ -42,12 +42,24 @@ struct RunAccess {
     std::uint32_t constraint;
     std::uint32_t a;
     std::uint32_t b;
+    // So many at its beginning have been in a group before, and stay as they are.
+    std::uint32_t done;
+
+    std::uint32_t first_constraint() const { return constraint; }
 
     template <typename Use>
     void for_each(const Use& use) const {
-        for (std::uint32_t lane = 0; lane < 2 * L::half; ++lane) {
+        for (std::uint32_t lane = done; lane < 2 * L::half; ++lane) {
             use(constraint + lane, a + lane, b + lane);
         }
+    }
+    // Nothing for the others.
+    LKS_FORCE_INLINE Group<L> still_due(const Group<L>& values) const {
+        if (done == 0) {
+            return values;
+        }
+        const std::int64_t* bits = lane_bits + widest_group - done;
+        return {L::bit_and(values.a, L::load(bits)), L::bit_and(values.b, L::load(bits + L::half))};
     }
 
     LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
@@ -58,12 +70,14 @@ struct RunAccess {
     }
     // x_a += plus_a, x_b −= minus_b.
     LKS_FORCE_INLINE void move(std::int64_t* x, const Group<L>& plus_a, const Group<L>& minus_b) const {
-        const Group<L> at_a = load_a(x);
-        const Group<L> at_b = load_b(x);
-        L::store(x + a, L::add(at_a.a, plus_a.a));
-        L::store(x + a + L::half, L::add(at_a.b, plus_a.b));
-        L::store(x + b, L::subtract(at_b.a, minus_b.a));
-        L::store(x + b + L::half, L::subtract(at_b.b, minus_b.b));
+        std::int64_t* x_a = as_it_stands(x + a);
+        std::int64_t* x_b = as_it_stands(x + b);
+        const Group<L> at_a{L::load(x_a), L::load(x_a + L::half)};
+        const Group<L> at_b{L::load(x_b), L::load(x_b + L::half)};
+        L::store(x_a, L::add(at_a.a, plus_a.a));
+        L::store(x_a + L::half, L::add(at_a.b, plus_a.b));
+        L::store(x_b, L::subtract(at_b.a, minus_b.a));
+        L::store(x_b + L::half, L::subtract(at_b.b, minus_b.b));
     }
     LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
         return {L::load(values + constraint), L::load(values + constraint + L::half)};
@@ -77,21 +91,21 @@ struct RunAccess {
     }
 };
 
-// `count` lanes from `first` on of a stretch; the others are not part of it, and do not move.
+// The first `count` lanes of a stretch; the others are not part of it, and do not move.
 template <typename L>
 struct PartialAccess {
     static constexpr std::uint32_t together = L::together;
     static constexpr bool whole = false;
 
     RunAccess<L> run;
-    std::uint32_t first;
     std::uint32_t count;
     // Whether the particles of the other lanes may be read, and written as they are.
     bool loads_whole;
     bool stores_whole;
 
+    std::uint32_t first_constraint() const { return run.constraint; }
     LKS_FORCE_INLINE Group<L> masked(const Group<L>& values) const {
-        const std::int64_t* bits = lane_bits + (first == 0 ? 2 * widest_group - count : widest_group - first);
+        const std::int64_t* bits = lane_bits + 2 * widest_group - count;
         return {L::bit_and(values.a, L::load(bits)), L::bit_and(values.b, L::load(bits + L::half))};
     }
     LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
@@ -107,7 +121,7 @@ struct PartialAccess {
         }
         const LaneValues<L> a(plus_a);
         const LaneValues<L> b(minus_b);
-        for (std::uint32_t lane = first; lane < first + count; ++lane) {
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
             x[run.a + lane] = wrapping_add(x[run.a + lane], a.values[lane]);
             x[run.b + lane] = wrapping_subtract(x[run.b + lane], b.values[lane]);
         }
@@ -119,10 +133,12 @@ struct PartialAccess {
         store_lanes(values + run.constraint, group);
     }
     LKS_FORCE_INLINE Group<L> load(const std::uint32_t* values) const { return run.load(values); }
+    // They have no difference, either.
+    LKS_FORCE_INLINE static Group<L> still_due(const Group<L>& values) { return values; }
 
     template <typename Use>
     void for_each(const Use& use) const {
-        for (std::uint32_t lane = first; lane < first + count; ++lane) {
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
             use(run.constraint + lane, run.a + lane, run.b + lane);
         }
     }
@@ -130,14 +146,14 @@ struct PartialAccess {
 private:
     Group<L> load_lanes(const std::int64_t* x) const {
         std::int64_t values[2 * L::half] = {};
-        for (std::uint32_t lane = first; lane < first + count; ++lane) {
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
             values[lane] = x[lane];
         }
         return {L::load(values), L::load(values + L::half)};
     }
     void store_lanes(std::int64_t* x, const Group<L>& group) const {
         const LaneValues<L> lanes(group);
-        for (std::uint32_t lane = first; lane < first + count; ++lane) {
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
             x[lane] = lanes.values[lane];
         }
     }
@@ -155,6 +171,8 @@ struct SinglesAccess {
     std::uint32_t count;
     Constraint ends[lanes];
 
+    std::uint32_t first_constraint() const { return constraint; }
+
     void take(const Constraint* constraints, std::uint32_t first, std::uint32_t number) {
         constraint = first;
         count = number;
@@ -168,6 +186,7 @@ struct SinglesAccess {
             use(constraint + i, ends[i].a, ends[i].b);
         }
     }
+    LKS_FORCE_INLINE static Group<L> still_due(const Group<L>& values) { return values; }
 
     LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
         return {L::gather(x, &ends[0].a), L::gather(x, &ends[L::half].a)};
@@ -201,33 +220,64 @@ struct SinglesAccess {
     }
 };
 
+// Something of each of n groups.
+template <typename T, std::uint32_t n>
+struct Each {
+    T at[n];
+    LKS_FORCE_INLINE const T& operator[](std::uint32_t i) const { return at[i]; }
+};
+
+// One step for each of n groups, so that steps of different groups follow each other: those of one group wait
+// for each other.
+template <std::uint32_t n, typename Step>
+LKS_FORCE_INLINE auto of_each(const Step& step) {
+    Each<decltype(step(0u)), n> values;
+#pragma GCC unroll 8
+    for (std::uint32_t i = 0; i < n; ++i) {
+        values.at[i] = step(i);
+    }
+    return values;
+}
+
 // 1/√m for 32-bit lanes whose even and odd halves are also given by themselves, low in 64 bits:
 // fixed/projection_reciprocal_sqrt.h.
-template <typename L>
-LKS_FORCE_INLINE typename L::Register
-reciprocal_sqrt_lanes(typename L::Register even, typename L::Register odd, typename L::Register m) {
-    using R = typename L::Register;
+template <typename L, std::uint32_t n>
+LKS_FORCE_INLINE auto reciprocal_sqrt_lanes(const Each<typename L::Register, n>& even,
+                                            const Each<typename L::Register, n>& odd,
+                                            const Each<typename L::Register, n>& m) {
+    using I = std::uint32_t;
     // Aligned, with the leading bit replaced by the octave.
-    const R aligned = L::select_by_sign_32(L::add_32(m, L::add_32(m, L::set_32(INT32_MIN))), m, m);
-    const R segment = L::template shift_right_32<29>(aligned);
-    const R c0_c1 = L::lookup(fixed::projection_seeds.c0_c1, segment);
-    const R c2_c3 = L::lookup(fixed::projection_seeds.c2_c3, segment);
+    const auto cut = of_each<n>([&](I i) { return L::add_32(L::add_32(m[i], m[i]), L::set_32(INT32_MIN)); });
+    const auto aligned = of_each<n>([&](I i) { return L::select_by_sign_32(cut[i], m[i], m[i]); });
+    const auto segment = of_each<n>([&](I i) { return L::template shift_right_32<29>(aligned[i]); });
+    const auto c2_c3 = of_each<n>([&](I i) { return L::lookup(fixed::projection_seeds.c2_c3, segment[i]); });
+    const auto c0_c1 = of_each<n>([&](I i) { return L::lookup(fixed::projection_seeds.c0_c1, segment[i]); });
     // t in the high 16 bits, and something else in the low ones.
-    const R high_t = L::exclusive_or(L::template shift_left_32<3>(aligned), L::set_32(INT32_MIN));
-    const R t = L::template shift_right_32<16>(high_t);
-    const R quadratic =
-        L::add_16(c2_c3, L::template shift_right_32<16>(L::rounding_multiply_16(high_t, c2_c3)));
-    const R slope = L::add_16(L::template shift_right_32<16>(c0_c1), L::rounding_multiply_16(t, quadratic));
-    const R correction = L::template shift_right_16_signed<3>(L::rounding_multiply_16(t, slope));
-    const R y0 = L::bit_and(L::add_16(c0_c1, correction), L::set_32(0xffff));
-    const R y0_squared = L::multiply_low_32(y0, y0);
-    const R e =
-        L::subtract_32(L::high_halves(L::multiply_unsigned(even, y0_squared),
-                                      L::multiply_unsigned(odd, L::template shift_right<32>(y0_squared))),
-                       L::set_32(1 << 30));
-    const R step = L::multiply_low_32(y0, L::template shift_right_32_signed<1>(e));
-    return L::subtract_32(L::template shift_left_32<15>(y0),
-                          L::template shift_right_32_signed<15>(L::add_32(step, L::set_32(1 << 14))));
+    const auto high_t = of_each<n>(
+        [&](I i) { return L::exclusive_or(L::template shift_left_32<3>(aligned[i]), L::set_32(INT32_MIN)); });
+    const auto cubic = of_each<n>([&](I i) { return L::rounding_multiply_16(high_t[i], c2_c3[i]); });
+    const auto t = of_each<n>([&](I i) { return L::template shift_right_32<16>(high_t[i]); });
+    const auto low_cubic = of_each<n>([&](I i) { return L::template shift_right_32<16>(cubic[i]); });
+    const auto quadratic = of_each<n>([&](I i) { return L::add_16(c2_c3[i], low_cubic[i]); });
+    const auto c1 = of_each<n>([&](I i) { return L::template shift_right_32<16>(c0_c1[i]); });
+    const auto bent = of_each<n>([&](I i) { return L::rounding_multiply_16(t[i], quadratic[i]); });
+    const auto slope = of_each<n>([&](I i) { return L::add_16(c1[i], bent[i]); });
+    const auto rise = of_each<n>([&](I i) { return L::rounding_multiply_16(t[i], slope[i]); });
+    const auto correction = of_each<n>([&](I i) { return L::template shift_right_16_signed<3>(rise[i]); });
+    const auto seed = of_each<n>([&](I i) { return L::add_16(c0_c1[i], correction[i]); });
+    const auto y0 = of_each<n>([&](I i) { return L::bit_and(seed[i], L::set_32(0xffff)); });
+    const auto squared = of_each<n>([&](I i) { return L::multiply_low_32(y0[i], y0[i]); });
+    const auto even_product = of_each<n>([&](I i) { return L::multiply_unsigned(even[i], squared[i]); });
+    const auto odd_squared = of_each<n>([&](I i) { return L::template shift_right<32>(squared[i]); });
+    const auto odd_product = of_each<n>([&](I i) { return L::multiply_unsigned(odd[i], odd_squared[i]); });
+    const auto product = of_each<n>([&](I i) { return L::high_halves(even_product[i], odd_product[i]); });
+    const auto e = of_each<n>([&](I i) { return L::subtract_32(product[i], L::set_32(1 << 30)); });
+    const auto half_e = of_each<n>([&](I i) { return L::template shift_right_32_signed<1>(e[i]); });
+    const auto step = of_each<n>([&](I i) { return L::multiply_low_32(y0[i], half_e[i]); });
+    const auto wide = of_each<n>([&](I i) { return L::template shift_left_32<15>(y0[i]); });
+    const auto rounded = of_each<n>([&](I i) { return L::add_32(step[i], L::set_32(1 << 14)); });
+    const auto taken = of_each<n>([&](I i) { return L::template shift_right_32_signed<15>(rounded[i]); });
+    return of_each<n>([&](I i) { return L::subtract_32(wide[i], taken[i]); });
 }
 
 // value · 2^-count with its sign, rounded down after `rounding` was added; |value| < 2^62. Where there is no
@@ -275,7 +325,7 @@ struct StagedGroup {
     Group<L> f;
 };
 
-template <typename L, bool equal_shares, bool soft, bool damped, bool multiplier>
+template <typename L, bool soft, bool damped, bool multiplier>
 class DistanceGroups {
     using R = typename L::Register;
     using G = Group<L>;
@@ -304,18 +354,18 @@ public:
     LKS_FORCE_INLINE void find_differences(const Access& at, StagedGroup<L>& group) const {
         R beyond = L::set(0);
         for (int axis = 0; axis < 3; ++axis) {
-            group.d[axis] = difference(at, axes_[axis], beyond);
+            const G now = lifted_difference(at, axes_[axis], beyond);
+            if constexpr (damped) {
+                const G start = lifted_difference(at, starts_[axis], beyond);
+                add_product(group.motion, axis, unlifted(now),
+                            {L::subtract(now.a, start.a), L::subtract(now.b, start.b)});
+            }
+            group.d[axis] = unlifted(now);
+            add_product(group.u, axis, group.d[axis], group.d[axis]);
         }
-        group.u = dot_product(group.d, group.d);
         const R high_u = L::high_halves(group.u.a, group.u.b);
         R outside = L::equal_32(high_u, L::set_32(0));
         if constexpr (damped) {
-            G start[3];
-            for (int axis = 0; axis < 3; ++axis) {
-                start[axis] = difference(at, starts_[axis], beyond);
-            }
-            const G product = dot_product(group.d, start);
-            group.motion = {L::subtract(group.u.a, product.a), L::subtract(group.u.b, product.b)};
             outside = L::bit_or(outside, exceeds(L::high_halves(group.motion.a, group.motion.b), high_u));
         }
         if constexpr (!Access::whole) {
@@ -325,13 +375,43 @@ public:
         group.plain = L::any(L::bit_or(outside, L::bit_and(beyond, L::set(~std::int64_t{INT32_MAX}))));
     }
 
+    // Of n groups at once.
+    template <std::uint32_t n, typename Access>
+    LKS_FORCE_INLINE void find_corrections(const Access* at, StagedGroup<L>* groups) const {
+        const auto lengths = measure<n>(groups);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const G rest = at[i].load(task_.rest_mantissas);
+            groups[i].f = {
+                at_most_one(ratio(L::multiply_unsigned(rest.a, lengths[i].y.a), lengths[i].twice_k.a)),
+                at_most_one(ratio(L::multiply_unsigned(rest.b, lengths[i].y.b), lengths[i].twice_k.b))};
+            find_correction(at[i], groups[i], lengths[i]);
+        }
+    }
+
+    template <bool alike_throughout, typename Access>
+    LKS_FORCE_INLINE void move(const Access& at, const StagedGroup<L>& group) const {
+        const G share_a = at.load(task_.shares_a);
+        if constexpr (alike_throughout) {
+            move_alike(at, group.d, group.f, share_a);
+            return;
+        }
+        const G share_b = at.load(task_.shares_b);
+        const G alike{L::equal(share_a.a, share_b.a), L::equal(share_a.b, share_b.b)};
+        if (L::all(L::bit_and(alike.a, alike.b))) {
+            move_alike(at, group.d, group.f, share_a);
+        } else {
+            move_by_share(at, group.d, group.f, share_a, share_b, alike);
+        }
+    }
+
+private:
     template <typename Access>
-    LKS_FORCE_INLINE void find_correction(const Access& at, StagedGroup<L>& group) const {
-        const Lengths lengths = measure(group.u);
-        group.f = relative_error(lengths, at.load(task_.rest_mantissas));
+    LKS_FORCE_INLINE void find_correction(const Access& at, StagedGroup<L>& group,
+                                          const Lengths& lengths) const {
         if constexpr (soft && (damped || multiplier)) {
             group.plain = !soften(at, group, lengths, group.f) || group.plain;
         }
+        group.f = at.still_due(group.f);
         if constexpr (multiplier) {
             if (!group.plain) {
                 add_to_multipliers(at, lengths, group.f);
@@ -339,47 +419,34 @@ public:
         }
     }
 
-    template <typename Access>
-    LKS_FORCE_INLINE void move(const Access& at, const StagedGroup<L>& group) const {
-        const G share_a = at.load(task_.shares_a);
-        if constexpr (equal_shares) {
-            move_alike(at, group.d, group.f, share_a);
-        } else {
-            const G share_b = at.load(task_.shares_b);
-            const G alike{L::equal(share_a.a, share_b.a), L::equal(share_a.b, share_b.b)};
-            if (L::all(L::bit_and(alike.a, alike.b))) {
-                move_alike(at, group.d, group.f, share_a);
-            } else {
-                move_by_share(at, group.d, group.f, share_a, share_b, alike);
-            }
-        }
-    }
-
-private:
     // Half a unit to round, and what makes 2^30 units positive.
     static R bias(const DistanceTask& task) {
         return L::set((std::int64_t{1} << (task.parameters.difference_shift - 1)) +
                       (std::int64_t{1} << (task.parameters.difference_shift + 30)));
     }
 
-    // x_a − x_b in difference units.
+    // x_a − x_b in difference units, lifted.
     template <typename Access>
-    LKS_FORCE_INLINE G difference(const Access& at, const std::int64_t* x, R& beyond) const {
+    LKS_FORCE_INLINE G lifted_difference(const Access& at, const std::int64_t* x, R& beyond) const {
         const G a = at.load_a(x);
         const G b = at.load_b(x);
         G wide{L::subtract(a.a, b.a), L::subtract(a.b, b.b)};
         if constexpr (!Access::whole) {
             wide = at.masked(wide);
         }
-        return narrow(wide, beyond);
+        return lifted(wide, beyond);
     }
 
-    // In difference units, within ±2^30; else bits above the 31st of `beyond` are set.
-    LKS_FORCE_INLINE G narrow(const G& wide, R& beyond) const {
+    // In difference units, within ±2^30, and 2^30 more; else bits above the 31st of `beyond` are set.
+    LKS_FORCE_INLINE G lifted(const G& wide, R& beyond) const {
         const R a = L::shift_right(L::add(wide.a, bias_), shift_);
         const R b = L::shift_right(L::add(wide.b, bias_), shift_);
         beyond = L::bit_or(beyond, L::bit_or(a, b));
-        return {L::subtract(a, L::set(direction_one)), L::subtract(b, L::set(direction_one))};
+        return {a, b};
+    }
+
+    LKS_FORCE_INLINE static G unlifted(const G& values) {
+        return {L::subtract(values.a, L::set(direction_one)), L::subtract(values.b, L::set(direction_one))};
     }
 
     // The sign bit of 32-bit lanes in which |motion| might exceed u, from the high halves of both.
@@ -389,35 +456,49 @@ private:
         return L::bit_and(L::bit_or(below, above), L::set_32(INT32_MIN));
     }
 
-    LKS_FORCE_INLINE static G dot_product(const G* v, const G* w) {
-        const auto sum = [](R x, R y, R z) { return L::add(L::add(x, y), z); };
-        return {sum(L::multiply_signed(v[0].a, w[0].a), L::multiply_signed(v[1].a, w[1].a),
-                    L::multiply_signed(v[2].a, w[2].a)),
-                sum(L::multiply_signed(v[0].b, w[0].b), L::multiply_signed(v[1].b, w[1].b),
-                    L::multiply_signed(v[2].b, w[2].b))};
+    // sum = v·w for the first axis, and more by it for the others.
+    LKS_FORCE_INLINE static void add_product(G& sum, int axis, const G& v, const G& w) {
+        const G product{L::multiply_signed(v.a, w.a), L::multiply_signed(v.b, w.b)};
+        sum = axis == 0 ? product : G{L::add(sum.a, product.a), L::add(sum.b, product.b)};
     }
 
-    LKS_FORCE_INLINE static Lengths measure(const G& u) {
-        Lengths lengths;
-        const R twice_k = L::bit_and(L::leading_zeros_32(L::high_halves(u.a, u.b)), L::set_32(~1));
-        lengths.twice_k = {L::bit_and(twice_k, L::set(UINT32_MAX)), L::template shift_right<32>(twice_k)};
-        const G aligned{L::shift_left_each(u.a, lengths.twice_k.a),
-                        L::shift_left_each(u.b, lengths.twice_k.b)};
-        lengths.m = {L::template shift_right<32>(aligned.a), L::template shift_right<32>(aligned.b)};
-        const R y = reciprocal_sqrt_lanes<L>(lengths.m.a, lengths.m.b, L::high_halves(aligned.a, aligned.b));
-        lengths.y = {y, L::template shift_right<32>(y)};
-        return lengths;
+    template <std::uint32_t n>
+    LKS_FORCE_INLINE static auto measure(const StagedGroup<L>* groups) {
+        using I = std::uint32_t;
+        const auto high = of_each<n>([&](I i) { return L::high_halves(groups[i].u.a, groups[i].u.b); });
+        const auto zeros = of_each<n>([&](I i) { return L::leading_zeros_32(high[i]); });
+        const auto twice_k = of_each<n>([&](I i) { return L::bit_and(zeros[i], L::set_32(~1)); });
+        const auto even_2k = of_each<n>([&](I i) { return L::bit_and(twice_k[i], L::set(UINT32_MAX)); });
+        const auto odd_2k = of_each<n>([&](I i) { return L::template shift_right<32>(twice_k[i]); });
+        const auto a = of_each<n>([&](I i) { return L::shift_left_each(groups[i].u.a, even_2k[i]); });
+        const auto b = of_each<n>([&](I i) { return L::shift_left_each(groups[i].u.b, odd_2k[i]); });
+        const auto even_m = of_each<n>([&](I i) { return L::template shift_right<32>(a[i]); });
+        const auto odd_m = of_each<n>([&](I i) { return L::template shift_right<32>(b[i]); });
+        const auto m = of_each<n>([&](I i) { return L::high_halves(a[i], b[i]); });
+        const auto y = reciprocal_sqrt_lanes<L, n>(even_m, odd_m, m);
+        return of_each<n>([&](I i) {
+            return Lengths{
+                {even_2k[i], odd_2k[i]}, {even_m[i], odd_m[i]}, {y[i], L::template shift_right<32>(y[i])}};
+        });
     }
 
     // g = min(L/len, 2) − 1 in Direction format, as 64-bit numbers.
-    LKS_FORCE_INLINE G relative_error(const Lengths& lengths, const G& rest) const {
-        return {ratio_less_one(L::multiply_unsigned(rest.a, lengths.y.a), lengths.twice_k.a),
-                ratio_less_one(L::multiply_unsigned(rest.b, lengths.y.b), lengths.twice_k.b)};
+    template <std::uint32_t n, typename Access>
+    LKS_FORCE_INLINE auto relative_errors(const Access* at, const Each<Lengths, n>& lengths) const {
+        using I = std::uint32_t;
+        const auto rest = of_each<n>([&](I i) { return at[i].load(task_.rest_mantissas); });
+        const auto a = of_each<n>([&](I i) { return L::multiply_unsigned(rest[i].a, lengths[i].y.a); });
+        const auto b = of_each<n>([&](I i) { return L::multiply_unsigned(rest[i].b, lengths[i].y.b); });
+        const auto ratio_a = of_each<n>([&](I i) { return ratio(a[i], lengths[i].twice_k.a); });
+        const auto ratio_b = of_each<n>([&](I i) { return ratio(b[i], lengths[i].twice_k.b); });
+        return of_each<n>([&](I i) { return G{at_most_one(ratio_a[i]), at_most_one(ratio_b[i])}; });
     }
 
-    LKS_FORCE_INLINE R ratio_less_one(R product, R twice_k) const {
-        const R ratio =
-            L::shift_right_each(product, L::subtract(ratio_shift_, L::template shift_right<1>(twice_k)));
+    LKS_FORCE_INLINE R ratio(R product, R twice_k) const {
+        return L::shift_right_each(product, L::subtract(ratio_shift_, L::template shift_right<1>(twice_k)));
+    }
+
+    LKS_FORCE_INLINE R at_most_one(R ratio) const {
         const R two = L::set(2 * std::int64_t{direction_one});
         // Neither exceeds 2^63, so the sign of the difference decides.
         const R limited = L::select_by_sign(ratio, two, L::subtract(two, ratio));
@@ -445,7 +526,7 @@ private:
     template <typename Access>
     LKS_FORCE_INLINE bool relax_by_multiplier(const Access& at, const Lengths& lengths, G& f) const {
         R beyond = L::set(0);
-        const G length = narrow(at.load_wide(task_.arrays.multipliers), beyond);
+        const G length = unlifted(lifted(at.load_wide(task_.arrays.multipliers), beyond));
         const G relaxation = at.load(task_.relaxations);
         f = {relax(f.a, length.a, relaxation.a, lengths.y.a, lengths.twice_k.a),
              relax(f.b, length.b, relaxation.b, lengths.y.b, lengths.twice_k.b)};
@@ -577,41 +658,64 @@ private:
     const std::int64_t* starts_[3];
 };
 
-// Groups that are waiting to go through the stages together. They touch no common particle.
-template <typename L, typename Access, typename Groups, typename ProjectOne>
+// Takes groups that touch no common particle through the stages together.
+template <typename L, typename Groups, typename ProjectOne>
 class Stages {
 public:
-    Stages(const Groups& groups, const ProjectOne& project_one)
-        : groups_(groups), project_one_(project_one) {}
+    Stages(const Groups& groups, const ProjectOne& project_one, ConstraintRange unequal_shares)
+        : groups_(groups), project_one_(project_one), unequal_(groups_into(unequal_shares)) {}
 
-    // Where the next one is to be written; then added.
-    Access& next() { return waiting_[count_]; }
-    LKS_FORCE_INLINE void add() {
-        if (++count_ == Access::together) {
-            project(groups_, waiting_, Access::together);
-            count_ = 0;
+    template <typename Access>
+    LKS_FORCE_INLINE void project(const Access* at, std::uint32_t count) const {
+        StagedGroup<L> staged[Access::together];
+        for (std::uint32_t i = 0; i < count; ++i) {
+            groups_.find_differences(at[i], staged[i]);
         }
+        find_corrections<L::interleaved>(at, staged, count);
+        bool alike = true;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            alike = alike && !is_in(unequal_, at[i].first_constraint());
+        }
+        alike ? move<true>(at, staged, count) : move<false>(at, staged, count);
     }
-    // Without waiting for others.
-    LKS_FORCE_INLINE void add_alone(const Access& at) const { project(groups_, &at, 1); }
-    LKS_NEVER_INLINE void finish() {
-        if (count_ != 0) {
-            project(groups_, waiting_, count_);
-        }
+    // What is rare, and would only be in the way of what is not.
+    template <typename Access>
+    LKS_NEVER_INLINE void project_apart(const Access* at, std::uint32_t count) const {
+        project(at, count);
+    }
+    void project_one(std::uint32_t constraint, std::uint32_t a, std::uint32_t b) const {
+        project_one_(constraint, a, b);
     }
 
 private:
-    LKS_FORCE_INLINE void project(const Groups& groups, const Access* at, std::uint32_t count) const {
-        StagedGroup<L> staged[Access::together];
-        for (std::uint32_t i = 0; i < count; ++i) {
-            groups.find_differences(at[i], staged[i]);
+    // Where groups begin that reach into the range.
+    static ConstraintRange groups_into(ConstraintRange range) {
+        if (range.first == range.last) {
+            return range;
         }
-        for (std::uint32_t i = 0; i < count; ++i) {
-            groups.find_correction(at[i], staged[i]);
+        // Before the first constraint of all it wraps around, and is_in as well.
+        return {range.first - (2 * L::half - 1), range.last};
+    }
+
+    // As many at once as can be.
+    template <std::uint32_t n, typename Access>
+    LKS_FORCE_INLINE void find_corrections(const Access* at, StagedGroup<L>* staged,
+                                           std::uint32_t count) const {
+        for (; count >= n; count -= n) {
+            groups_.template find_corrections<n>(at, staged);
+            at += n;
+            staged += n;
         }
+        if constexpr (n > 1) {
+            find_corrections<n - 1>(at, staged, count);
+        }
+    }
+
+    template <bool alike, typename Access>
+    LKS_FORCE_INLINE void move(const Access* at, const StagedGroup<L>* staged, std::uint32_t count) const {
         for (std::uint32_t i = 0; i < count; ++i) {
             if (!staged[i].plain) {
-                groups.move(at[i], staged[i]);
+                groups_.template move<alike>(at[i], staged[i]);
             } else {
                 at[i].for_each(project_one_);
             }
@@ -620,97 +724,146 @@ private:
 
     const Groups& groups_;
     const ProjectOne& project_one_;
-    std::uint32_t count_ = 0;
-    Access waiting_[Access::together];
+    ConstraintRange unequal_;
 };
 
-template <typename L, typename Groups, typename ProjectOne>
-inline void project_runs(const DistanceTask& task, const Groups& groups, const ProjectOne& project_one) {
-    constexpr std::uint32_t lanes = 2 * L::half;
-    Stages<L, RunAccess<L>, Groups, ProjectOne> stages(groups, project_one);
-    Stages<L, PartialAccess<L>, Groups, ProjectOne> ends(groups, project_one);
-    visit_runs(task, [&](std::uint32_t constraint, std::uint32_t a, std::uint32_t b, std::uint32_t count,
-                         std::uint32_t spare) {
-        std::uint32_t i = 0;
-        for (; i + lanes <= count; i += lanes) {
-            if constexpr (L::together == 1) {
-                stages.add_alone({constraint + i, a + i, b + i});
-            } else {
-                stages.next() = {constraint + i, a + i, b + i};
-                stages.add();
+// Takes a part's runs apart: into whole groups, the last of a run over lanes that were in the one before it,
+// into groups that are not filled where a run is shorter than a group, and into what is better off alone.
+template <typename L, typename Stage>
+class RunGroups {
+public:
+    RunGroups(const BatchPart& part, const Stage& stages) : part_(part), stages_(stages) {}
+
+    // The next whole groups, of which there are fewer than L::together at the end only.
+    LKS_FORCE_INLINE std::uint32_t take(RunAccess<L>* groups) {
+        std::uint32_t taken = 0;
+        for (;;) {
+            for (; at_ < in_groups_; at_ += lanes) {
+                if (taken == L::together) {
+                    return taken;
+                }
+                const std::uint32_t done = at_ + lanes > in_groups_ ? at_ + lanes - in_groups_ : 0;
+                const std::uint32_t from = at_ - done;
+                groups[taken++] = {run_.constraint + from, run_.a + from, run_.b + from, done};
             }
-        }
-        const std::uint32_t left = count - i;
-        if (left < L::worth_a_group) {
-            for (; i < count; ++i) {
-                project_one(constraint + i, a + i, b + i);
+            if (next_ == part_.run_count) {
+                return taken;
             }
-            return;
+            begin_run(run_part(part_, next_++));
         }
-        PartialAccess<L>& end = ends.next();
-        if (count > lanes) {
-            // The last `lanes` of it, of which some have been in a group already.
-            const std::uint32_t back = lanes - left;
-            end = {{constraint + i - back, a + i - back, b + i - back}, back, left, true, true};
-        } else {
-            const bool spares = left + spare >= lanes;
-            // Lanes behind the end are read, so nobody else may write them meanwhile.
-            end = {{constraint + i, a + i, b + i}, 0, left, spares || task.whole_batch, spares};
+    }
+
+    void finish() {
+        if (short_count_ != 0) {
+            stages_.project_apart(short_, short_count_);
         }
-        ends.add();
-    });
-    stages.finish();
-    ends.finish();
+    }
+
+private:
+    static constexpr std::uint32_t lanes = 2 * L::half;
+
+    void begin_run(const RunPart& run) {
+        run_ = run;
+        at_ = 0;
+        const std::uint32_t left = run.count % lanes;
+        const bool alone = left < L::worth_a_group;
+        in_groups_ = alone ? run.count - left : run.count < lanes ? 0 : run.count;
+        if (alone) {
+            for (std::uint32_t i = in_groups_; i < run.count; ++i) {
+                stages_.project_one(run.constraint + i, run.a + i, run.b + i);
+            }
+        } else if (run.count < lanes) {
+            add_short();
+        }
+    }
+
+    void add_short() {
+        const bool spares = run_.count + run_.spare >= lanes;
+        // Lanes behind the end are read, so nobody else may write them meanwhile.
+        short_[short_count_++] = {
+            {run_.constraint, run_.a, run_.b, 0}, run_.count, spares || part_.whole, spares};
+        if (short_count_ == PartialAccess<L>::together) {
+            stages_.project_apart(short_, short_count_);
+            short_count_ = 0;
+        }
+    }
+
+    const BatchPart& part_;
+    const Stage& stages_;
+    std::uint32_t next_ = 0; // run
+    RunPart run_{};
+    std::uint32_t at_ = 0;
+    std::uint32_t in_groups_ = 0;
+    std::uint32_t short_count_ = 0;
+    PartialAccess<L> short_[PartialAccess<L>::together];
+};
+
+template <typename L, typename Stage>
+inline void project_runs(const BatchPart& part, const Stage& stages) {
+    RunGroups<L, Stage> runs(part, stages);
+    RunAccess<L> groups[L::together];
+    while (const std::uint32_t count = runs.take(groups)) {
+        stages.project(groups, count);
+    }
+    runs.finish();
 }
 
-template <typename L, typename Groups, typename ProjectOne>
-inline void project_singles(const DistanceTask& task, const Groups& groups, const ProjectOne& project_one) {
+template <typename L, typename Stage>
+inline void project_singles(const DistanceTask& task, const BatchPart& part, const Stage& stages) {
     constexpr std::uint32_t lanes = 2 * L::half;
-    Stages<L, SinglesAccess<L>, Groups, ProjectOne> stages(groups, project_one);
-    std::uint32_t i = task.first_single < task.range.first ? task.range.first : task.first_single;
-    for (; i + L::worth_a_group <= task.range.last; i += lanes) {
-        const std::uint32_t left = task.range.last - i;
-        stages.next().take(task.constraints, i, left < lanes ? left : lanes);
-        stages.add();
+    SinglesAccess<L> groups[SinglesAccess<L>::together];
+    ConstraintRange rest = singles(part);
+    std::uint32_t count = 0;
+    while (rest.first + L::worth_a_group <= rest.last) {
+        const std::uint32_t left = rest.last - rest.first;
+        const std::uint32_t number = left < lanes ? left : lanes;
+        groups[count++].take(task.constraints, rest.first, number);
+        rest.first += number;
+        if (count == SinglesAccess<L>::together || rest.first + L::worth_a_group > rest.last) {
+            stages.project(groups, count);
+            count = 0;
+        }
     }
-    stages.finish();
-    for (; i < task.range.last; ++i) {
-        project_one(i, task.constraints[i].a, task.constraints[i].b);
+    for (; rest.first < rest.last; ++rest.first) {
+        stages.project_one(rest.first, task.constraints[rest.first].a, task.constraints[rest.first].b);
     }
 }
 
-template <typename L, bool equal_shares, bool soft, bool damped, bool multiplier>
+template <typename L, bool soft, bool damped, bool multiplier>
 inline void project_in_groups(const DistanceTask& task) {
-    using Groups = DistanceGroups<L, equal_shares, soft, damped, multiplier>;
+    using Groups = DistanceGroups<L, soft, damped, multiplier>;
+    using ProjectOne = Projection<soft, damped, multiplier>;
     const Groups groups(task);
-    const Projection<equal_shares, soft, damped, multiplier> project_one(task);
-    if (task.run_count != 0) {
-        project_runs<L>(task, groups, project_one);
-    }
-    if (task.first_single < task.range.last) {
-        project_singles<L>(task, groups, project_one);
+    const ProjectOne project_one(task);
+    for (std::uint32_t p = 0; p < task.part_count; ++p) {
+        const BatchPart& part = task.parts[p];
+        const Stages<L, Groups, ProjectOne> stages(groups, project_one, part.unequal_shares);
+        if (part.run_count != 0) {
+            project_runs<L>(part, stages);
+        }
+        if (part.first_single < part.range.last) {
+            project_singles<L>(task, part, stages);
+        }
     }
 }
 
-template <typename L, bool equal_shares, bool multiplier>
+template <typename L, bool multiplier>
 inline void project_family_in_groups(const DistanceTask& task) {
     if (!task.soft) {
-        project_in_groups<L, equal_shares, false, false, multiplier>(task);
+        project_in_groups<L, false, false, multiplier>(task);
     } else if (!task.damped) {
-        project_in_groups<L, equal_shares, true, false, multiplier>(task);
+        project_in_groups<L, true, false, multiplier>(task);
     } else {
-        project_in_groups<L, equal_shares, true, true, multiplier>(task);
+        project_in_groups<L, true, true, multiplier>(task);
     }
 }
 
 template <typename L>
 inline void project_lanes(const DistanceTask& task) {
     if (task.arrays.multipliers == nullptr) {
-        task.equal_shares ? project_family_in_groups<L, true, false>(task)
-                          : project_family_in_groups<L, false, false>(task);
+        project_family_in_groups<L, false>(task);
     } else {
-        task.equal_shares ? project_family_in_groups<L, true, true>(task)
-                          : project_family_in_groups<L, false, true>(task);
+        project_family_in_groups<L, true>(task);
     }
 }
 

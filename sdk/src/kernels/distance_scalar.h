@@ -69,7 +69,7 @@ inline std::int64_t unit_multiply(std::uint32_t unit, std::int64_t value) {
     return shift_right_rounded(value * static_cast<std::int64_t>(unit), unit_fraction_bits);
 }
 
-template <bool equal_shares, bool soft, bool damped, bool multiplier>
+template <bool soft, bool damped, bool multiplier>
 class Projection {
 public:
     explicit Projection(const DistanceTask& task)
@@ -178,10 +178,11 @@ private:
 
     void apply(std::uint32_t constraint, std::uint32_t a, std::uint32_t b, const NarrowDifference& d,
                std::int64_t f) const {
-        if (equal_shares || shares_a_[constraint] == shares_b_[constraint]) {
-            move_alike(shares_a_[constraint], a, b, d, f);
+        const std::uint32_t share = shares_a_[constraint];
+        if (share == shares_b_[constraint]) {
+            move_alike(share, a, b, d, f);
         } else {
-            move_by_share(shares_a_[constraint], shares_b_[constraint], a, b, d, f);
+            move_by_share(share, shares_b_[constraint], a, b, d, f);
         }
     }
 

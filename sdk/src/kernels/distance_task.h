@@ -1,5 +1,6 @@
-// A piece of work for a distance kernel: a range of one batch. Plain data, and no functions: kernels are
-// compiled for instruction sets that not every machine has, and what they share with others must not be code.
+// A piece of work for a distance kernel: batches of one object that have their parameters in common. Plain
+// data, and no functions: kernels are compiled for instruction sets that not every machine has, and what they
+// share with others must not be code.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,8 @@ struct DistanceArrays {
 
 // What is the same for all constraints of a batch.
 struct DistanceParameters {
+    bool operator==(const DistanceParameters&) const = default;
+
     std::int32_t difference_shift; // s
     std::int32_t rest_exponent;
     std::int32_t gain_shift;    // Unit × Direction product to gain, 31 .. 41
@@ -34,27 +37,38 @@ struct DistanceParameters {
 // Constraints of one batch, which may be taken in any order and by any thread.
 struct ConstraintRange {
     std::uint32_t first;
-    std::uint32_t last; // one behind
+    std::uint32_t last; // one behind, and not before the first
 };
 
-struct DistanceTask {
+constexpr bool is_in(ConstraintRange range, std::uint32_t constraint) {
+    return constraint - range.first < range.last - range.first;
+}
+
+// All of one batch, or a part.
+struct BatchPart {
     ConstraintRange range;
     const Run* runs; // those that reach into the range, in order, and then perhaps others
     std::uint32_t run_count;
-    bool whole_batch;           // the range is all of it: nobody else is at work on the batch
-    bool short_runs;            // of less than widest_group constraints on the average of the batch
-    std::uint32_t first_single; // constraint: from here on its ends are in `constraints`
+    std::uint32_t first_single; // constraint: from here on its ends are in the task's `constraints`
+    // Outside of these, which need not be in `range`, both ends have the same share.
+    ConstraintRange unequal_shares;
+    bool whole; // nobody else is at work on the batch
+};
+
+struct DistanceTask {
+    const BatchPart* parts; // one after the other
+    std::uint32_t part_count;
+    bool short_runs; // of less than widest_group constraints on the average of each batch
+    bool soft;
+    bool damped;
+    DistanceParameters parameters;
     const Constraint* constraints;
     // By constraint; kernels read up to widest_group - 1 of each behind the last one.
     const std::uint32_t* rest_mantissas;
     const std::uint32_t* shares_a;
     const std::uint32_t* shares_b;
     const std::uint32_t* relaxations; // null where needless
-    DistanceParameters parameters;
     DistanceArrays arrays;
-    bool equal_shares; // throughout
-    bool soft;
-    bool damped;
 };
 
 } // namespace lks

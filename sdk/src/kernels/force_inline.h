@@ -22,3 +22,18 @@
 #else
 #define LKS_SHORT_LOOP
 #endif
+
+// A pointer that compilers take as it stands: they would keep sums of base and offset for each displacement
+// instead, and need more registers and additions for them than loads and stores.
+#if defined(__GNUC__)
+template <typename T>
+LKS_FORCE_INLINE T* as_it_stands(T* pointer) {
+    __asm__("" : "+r"(pointer));
+    return pointer;
+}
+#else
+template <typename T>
+LKS_FORCE_INLINE T* as_it_stands(T* pointer) {
+    return pointer;
+}
+#endif

@@ -10,6 +10,8 @@ namespace {
 
 struct LanesNeon {
     static constexpr std::uint32_t half = 2;
+    // Groups of which the lengths are found step by step, side by side.
+    static constexpr std::uint32_t interleaved = 2;
     // Groups that go through the stages together.
     static constexpr std::uint32_t together = 4;
     static constexpr std::uint32_t singles_together = 4;

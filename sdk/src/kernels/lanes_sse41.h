@@ -10,11 +10,13 @@ namespace {
 
 struct LanesSse41 {
     static constexpr std::uint32_t half = 2;
+    // Groups of which the lengths are found step by step, side by side.
+    static constexpr std::uint32_t interleaved = 3;
     // Groups that go through the stages together.
-    static constexpr std::uint32_t together = 4;
+    static constexpr std::uint32_t together = 6;
     static constexpr std::uint32_t singles_together = 8;
     // Fewer constraints are faster by themselves than as part of a group.
-    static constexpr std::uint32_t worth_a_group = 3;
+    static constexpr std::uint32_t worth_a_group = 2;
     using Register = __m128i;
     using Shift = __m128i;
     static constexpr bool has_signed_shift = false;

@@ -35,6 +35,14 @@ Scaled inverse_mass(const lks_asset& asset, const PinnedParticles& pinned, std::
     return pinned.contains(particle) ? Scaled{} : asset.inverse_masses[particle];
 }
 
+void include(ConstraintRange& range, std::uint32_t constraint) {
+    if (range.first == range.last) {
+        range = {constraint, constraint + 1};
+    } else {
+        range = {std::min(range.first, constraint), std::max(range.last, constraint + 1)};
+    }
+}
+
 // The largest s that any pinning can give to this constraint: the other end pinned.
 Scaled largest_share(const Scaled& w_a, const Scaled& w_b, const Scaled& softness) {
     const Scaled& w = w_a < w_b ? w_b : w_a;
@@ -97,10 +105,9 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
         const std::int32_t exponent = largest.is_zero() ? 0 : -largest.log2_floor() - 1;
         batches[b].share_exponent = std::clamp(exponent, 0, 40);
         batches[b].parameters = distance_parameters(batch, batches[b].share_exponent, families[batch.family]);
-        batches[b].equal_shares = true;
+        batches[b].unequal_shares = {};
         for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
             update_constraint(asset, rate, none, i, b);
-            batches[b].equal_shares = batches[b].equal_shares && shares_a[i] == shares_b[i];
         }
     }
     return chain.build(asset, terms[LKS_CONSTRAINT_STRETCH].softness);
@@ -132,9 +139,6 @@ void Coefficients::update_particle(const lks_asset& asset, const StepRate& rate,
             ++batch;
         }
         update_constraint(asset, rate, pinned, constraint, batch);
-        // Never set back to true: that would need a look at the whole batch.
-        batches[batch].equal_shares =
-            batches[batch].equal_shares && shares_a[constraint] == shares_b[constraint];
     }
 }
 
@@ -154,6 +158,10 @@ void Coefficients::update_constraint(const lks_asset& asset, const StepRate& rat
     } else {
         shares_a[constraint] = to_share(w_a / effective, exponent);
         shares_b[constraint] = to_share(w_b / effective, exponent);
+    }
+    if (shares_a[constraint] != shares_b[constraint]) {
+        // Never taken back: that would need a look at the whole batch.
+        include(batches[batch].unequal_shares, constraint);
     }
     if (!relaxations.empty()) {
         relaxations[constraint] = effective.is_zero() ? 0 : to_share(terms.softness / effective);

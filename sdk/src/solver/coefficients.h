@@ -28,8 +28,8 @@ struct FamilyCoefficients {
 struct BatchCoefficients {
     DistanceParameters parameters{};
     std::int32_t share_exponent = 0; // s = share · 2^-(31 + share_exponent)
-    // s_a = s_b throughout, so that nobody need look. False says nothing.
-    bool equal_shares = true;
+    // Outside of these s_a = s_b, so that nobody need look. Within it says nothing.
+    ConstraintRange unequal_shares{};
 };
 
 // Which particles have infinite mass although the asset gives them one: ascending indices.

@@ -1,4 +1,4 @@
-// The distance constraint C = |x_a − x_b| − L (XPBD eq. 18 and 26): one pass over a batch or a part of it.
+// The distance constraint C = |x_a − x_b| − L (XPBD eq. 18 and 26): one pass over batches or a part of one.
 //
 // Positions are read as 32-bit differences, everything in between is 32 bits wide, and the correction is
 // added to the positions as a product in full (docs/numbers.md):
@@ -25,12 +25,18 @@
 
 namespace lks {
 
-// What a kernel has to know for one pass over a batch. Made once a tick: what a kernel reads was then stored
-// long ago, and does not hold it up.
-DistanceTask whole_batch(const lks_asset& asset, const Coefficients& coefficients, std::uint32_t batch,
-                         const DistanceArrays& arrays);
-// For some of its constraints.
-DistanceTask part_of_batch(const DistanceTask& whole, const lks_asset& asset, std::uint32_t batch,
-                           ConstraintRange range);
+// What kernels have to know for one pass over an object's constraints.
+struct DistanceWork {
+    Array<BatchPart> parts;    // by batch
+    Array<DistanceTask> tasks; // as many batches of one family together as can be, in order
+};
+
+// Made once a tick: what a kernel reads was then stored long ago, and does not hold it up. There must be room
+// for as many of each as the asset has batches.
+void prepare_distances(const lks_asset& asset, const Coefficients& coefficients, const DistanceArrays& arrays,
+                       DistanceWork& work);
+// Some constraints of a batch.
+BatchPart part_of_batch(const BatchPart& whole, const lks_asset& asset, std::uint32_t batch,
+                        ConstraintRange range);
 
 } // namespace lks

@@ -91,10 +91,7 @@ private:
     }
 
     void prepare_batches() {
-        scratch_.batches.clear();
-        for (std::uint32_t index = 0; index < asset_.batches.size(); ++index) {
-            scratch_.batches.push_reserved(whole_batch(asset_, coefficients_, index, distance_arrays()));
-        }
+        prepare_distances(asset_, coefficients_, distance_arrays(), scratch_.distances);
     }
 
     // Tethers come first: what they pull taut is then made even by the constraints.
@@ -117,9 +114,9 @@ private:
     // A rope that is solved directly comes last, so that an iteration ends with no segment stretched.
     void sweep_batches() {
         const bool directly = !coefficients_.chain.empty();
-        for (std::uint32_t batch = 0; batch < asset_.batches.size(); ++batch) {
-            if (!directly || asset_.batches[batch].family != LKS_CONSTRAINT_STRETCH) {
-                project_batch(batch);
+        for (const DistanceTask& task : scratch_.distances.tasks) {
+            if (!directly || !stretches(task)) {
+                project(task);
             }
         }
         if (directly) {
@@ -139,27 +136,45 @@ private:
 
     // Its multipliers are the direct solve's alone.
     void sweep_stretch() {
-        for (std::uint32_t batch = 0; batch < asset_.batches.size(); ++batch) {
-            if (asset_.batches[batch].family == LKS_CONSTRAINT_STRETCH) {
-                DistanceTask task = scratch_.batches[batch];
+        for (DistanceTask task : scratch_.distances.tasks) {
+            if (stretches(task)) {
                 task.arrays.multipliers = nullptr;
                 world_.kernels->project_distances(task);
             }
         }
     }
 
-    void project_batch(std::uint32_t index) {
-        const DistanceTask& whole = scratch_.batches[index];
+    // Of the first batch of a task.
+    std::uint32_t batch_of(const DistanceTask& task) const {
+        return static_cast<std::uint32_t>(task.parts - scratch_.distances.parts.data());
+    }
+
+    bool stretches(const DistanceTask& task) const {
+        return asset_.batches[batch_of(task)].family == LKS_CONSTRAINT_STRETCH;
+    }
+
+    void project(const DistanceTask& task) {
         if (team_ == nullptr) {
-            world_.kernels->project_distances(whole);
+            world_.kernels->project_distances(task);
             return;
         }
-        in_blocks(
-            asset_.batches[index].count, constraints_a_block,
-            [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
-                const std::uint32_t from = whole.range.first + first;
-                world_.kernels->project_distances(part_of_batch(whole, asset_, index, {from, from + count}));
-            });
+        const std::uint32_t first = batch_of(task);
+        for (std::uint32_t batch = first; batch < first + task.part_count; ++batch) {
+            project_in_blocks(task, batch);
+        }
+    }
+
+    void project_in_blocks(const DistanceTask& task, std::uint32_t batch) {
+        const BatchPart& whole = scratch_.distances.parts[batch];
+        in_blocks(asset_.batches[batch].count, constraints_a_block,
+                  [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
+                      const std::uint32_t from = whole.range.first + first;
+                      const BatchPart part = part_of_batch(whole, asset_, batch, {from, from + count});
+                      DistanceTask block = task;
+                      block.parts = &part;
+                      block.part_count = 1;
+                      world_.kernels->project_distances(block);
+                  });
     }
 
     void predict() {

@@ -3,9 +3,9 @@
 
 #include <lockstitch/world.h>
 
-#include "kernels/distance_task.h"
 #include "memory/array.h"
 #include "solver/chain.h"
+#include "solver/distance.h"
 #include "solver/object.h"
 #include "solver/tethers.h"
 
@@ -13,7 +13,7 @@ namespace lks {
 
 struct TickScratch {
     Array<std::uint32_t> candidates; // colliders near the object at work
-    Array<DistanceTask> batches;     // of the object at work, by batch
+    DistanceWork distances;          // of the object at work
     Array<ChainWork> chain;          // room for the longest rope that is solved directly
     Array<TetherAnchor> anchors;     // room for those of the asset that has most
     lks_world_counters counters{};   // of this tick
