@@ -380,10 +380,7 @@ public:
     LKS_FORCE_INLINE void find_corrections(const Access* at, StagedGroup<L>* groups) const {
         const auto lengths = measure<n>(groups);
         for (std::uint32_t i = 0; i < n; ++i) {
-            const G rest = at[i].load(task_.rest_mantissas);
-            groups[i].f = {
-                at_most_one(ratio(L::multiply_unsigned(rest.a, lengths[i].y.a), lengths[i].twice_k.a)),
-                at_most_one(ratio(L::multiply_unsigned(rest.b, lengths[i].y.b), lengths[i].twice_k.b))};
+            groups[i].f = relative_error(lengths[i], at[i].load(task_.rest_mantissas));
             find_correction(at[i], groups[i], lengths[i]);
         }
     }
@@ -483,22 +480,14 @@ private:
     }
 
     // g = min(L/len, 2) − 1 in Direction format, as 64-bit numbers.
-    template <std::uint32_t n, typename Access>
-    LKS_FORCE_INLINE auto relative_errors(const Access* at, const Each<Lengths, n>& lengths) const {
-        using I = std::uint32_t;
-        const auto rest = of_each<n>([&](I i) { return at[i].load(task_.rest_mantissas); });
-        const auto a = of_each<n>([&](I i) { return L::multiply_unsigned(rest[i].a, lengths[i].y.a); });
-        const auto b = of_each<n>([&](I i) { return L::multiply_unsigned(rest[i].b, lengths[i].y.b); });
-        const auto ratio_a = of_each<n>([&](I i) { return ratio(a[i], lengths[i].twice_k.a); });
-        const auto ratio_b = of_each<n>([&](I i) { return ratio(b[i], lengths[i].twice_k.b); });
-        return of_each<n>([&](I i) { return G{at_most_one(ratio_a[i]), at_most_one(ratio_b[i])}; });
+    LKS_FORCE_INLINE G relative_error(const Lengths& lengths, const G& rest) const {
+        return {ratio_less_one(L::multiply_unsigned(rest.a, lengths.y.a), lengths.twice_k.a),
+                ratio_less_one(L::multiply_unsigned(rest.b, lengths.y.b), lengths.twice_k.b)};
     }
 
-    LKS_FORCE_INLINE R ratio(R product, R twice_k) const {
-        return L::shift_right_each(product, L::subtract(ratio_shift_, L::template shift_right<1>(twice_k)));
-    }
-
-    LKS_FORCE_INLINE R at_most_one(R ratio) const {
+    LKS_FORCE_INLINE R ratio_less_one(R product, R twice_k) const {
+        const R ratio =
+            L::shift_right_each(product, L::subtract(ratio_shift_, L::template shift_right<1>(twice_k)));
         const R two = L::set(2 * std::int64_t{direction_one});
         // Neither exceeds 2^63, so the sign of the difference decides.
         const R limited = L::select_by_sign(ratio, two, L::subtract(two, ratio));
@@ -683,7 +672,7 @@ public:
     LKS_NEVER_INLINE void project_apart(const Access* at, std::uint32_t count) const {
         project(at, count);
     }
-    void project_one(std::uint32_t constraint, std::uint32_t a, std::uint32_t b) const {
+    LKS_NEVER_INLINE void project_one(std::uint32_t constraint, std::uint32_t a, std::uint32_t b) const {
         project_one_(constraint, a, b);
     }
 
@@ -714,10 +703,14 @@ private:
     template <bool alike, typename Access>
     LKS_FORCE_INLINE void move(const Access* at, const StagedGroup<L>* staged, std::uint32_t count) const {
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (!staged[i].plain) {
-                groups_.template move<alike>(at[i], staged[i]);
+            if (staged[i].plain) {
+                at[i].for_each([this](std::uint32_t constraint, std::uint32_t a, std::uint32_t b) {
+                    project_one(constraint, a, b);
+                });
+            } else if (alike || !is_in(unequal_, at[i].first_constraint())) {
+                groups_.template move<true>(at[i], staged[i]);
             } else {
-                at[i].for_each(project_one_);
+                groups_.template move<false>(at[i], staged[i]);
             }
         }
     }

@@ -74,30 +74,37 @@ class Projection {
 public:
     explicit Projection(const DistanceTask& task)
         : rest_mantissas_(task.rest_mantissas), shares_a_(task.shares_a), shares_b_(task.shares_b),
-          relaxations_(task.relaxations), parameters_(task.parameters), arrays_(task.arrays) {}
+          relaxations_(task.relaxations), parameters_(task.parameters),
+          difference_rounding_(std::int64_t{1} << (task.parameters.difference_shift - 1)),
+          gain_rounding_(std::int64_t{1} << (task.parameters.gain_shift - 1)), arrays_(task.arrays) {}
 
-    void operator()(std::uint32_t constraint, std::uint32_t a, std::uint32_t b) const {
-        const Difference wide{wrapping_subtract(arrays_.x[a], arrays_.x[b]),
-                              wrapping_subtract(arrays_.y[a], arrays_.y[b]),
-                              wrapping_subtract(arrays_.z[a], arrays_.z[b])};
+    LKS_FORCE_INLINE void operator()(std::uint32_t constraint, std::uint32_t a, std::uint32_t b) const {
+        const Difference wide = difference(a, b);
         const int shift = parameters_.difference_shift;
-        const std::int64_t x = shift_right_rounded(wide.x, shift);
-        const std::int64_t y = shift_right_rounded(wide.y, shift);
-        const std::int64_t z = shift_right_rounded(wide.z, shift);
+        const std::int64_t x = wrapping_add(wide.x, difference_rounding_) >> shift;
+        const std::int64_t y = wrapping_add(wide.y, difference_rounding_) >> shift;
+        const std::int64_t z = wrapping_add(wide.z, difference_rounding_) >> shift;
         if (fit_differences(x, y, z)) {
-            project(constraint, a, b, NarrowDifference{x, y, z, 0});
+            project<false>(constraint, a, b, NarrowDifference{x, y, z, 0});
         } else {
-            project_far(constraint, a, b, wide);
+            project_far(constraint, a, b);
         }
     }
 
 private:
-    // By itself, so that what nearly all edges take has no shifts that it doesn't need.
-    LKS_NEVER_INLINE void project_far(std::uint32_t constraint, std::uint32_t a, std::uint32_t b,
-                                      const Difference& wide) const {
-        project(constraint, a, b, narrow_far(wide, parameters_.difference_shift));
+    LKS_FORCE_INLINE Difference difference(std::uint32_t a, std::uint32_t b) const {
+        const std::int64_t* x = as_it_stands(arrays_.x);
+        const std::int64_t* y = as_it_stands(arrays_.y);
+        const std::int64_t* z = as_it_stands(arrays_.z);
+        return {wrapping_subtract(x[a], x[b]), wrapping_subtract(y[a], y[b]), wrapping_subtract(z[a], z[b])};
     }
 
+    // By itself, so that what nearly all edges take has no shifts that it doesn't need.
+    LKS_NEVER_INLINE void project_far(std::uint32_t constraint, std::uint32_t a, std::uint32_t b) const {
+        project<true>(constraint, a, b, narrow_far(difference(a, b), parameters_.difference_shift));
+    }
+
+    template <bool far>
     LKS_FORCE_INLINE void project(std::uint32_t constraint, std::uint32_t a, std::uint32_t b,
                                   const NarrowDifference& d) const {
         const std::uint64_t u = static_cast<std::uint64_t>(d.x * d.x) +
@@ -120,7 +127,7 @@ private:
             arrays_.multipliers[constraint] =
                 wrapping_add(arrays_.multipliers[constraint], length_of(f, u, y, k, scale));
         }
-        apply(constraint, a, b, d, f);
+        apply<far>(constraint, a, b, d, f);
     }
 
     // f in Direction format from the relative error g = L/len − 1.
@@ -176,25 +183,30 @@ private:
         return right >= 0 ? twice >> right : shift_either_way(twice, -right);
     }
 
-    void apply(std::uint32_t constraint, std::uint32_t a, std::uint32_t b, const NarrowDifference& d,
-               std::int64_t f) const {
+    template <bool far>
+    LKS_FORCE_INLINE void apply(std::uint32_t constraint, std::uint32_t a, std::uint32_t b,
+                                const NarrowDifference& d, std::int64_t f) const {
         const std::uint32_t share = shares_a_[constraint];
         if (share == shares_b_[constraint]) {
-            move_alike(share, a, b, d, f);
+            move_alike<far>(share, a, b, d, f);
         } else {
             move_by_share(share, shares_b_[constraint], a, b, d, f);
         }
     }
 
     // Both ends by the same rounded correction: linear momentum is kept to the bit.
-    void move_alike(std::uint32_t share, std::uint32_t a, std::uint32_t b, const NarrowDifference& d,
-                    std::int64_t f) const {
+    template <bool far>
+    LKS_FORCE_INLINE void move_alike(std::uint32_t share, std::uint32_t a, std::uint32_t b,
+                                     const NarrowDifference& d, std::int64_t f) const {
         const std::int64_t gain =
-            shift_right_rounded(static_cast<std::int64_t>(share) * f, parameters_.gain_shift);
-        const int left = d.extra - parameters_.product_shift;
-        const auto move = [&](std::int64_t* x, std::int64_t difference) {
-            const std::int64_t correction =
-                left == 0 ? difference * gain : shift_either_way(difference * gain, left);
+            (static_cast<std::int64_t>(share) * f + gain_rounding_) >> parameters_.gain_shift;
+        const auto move = [&](std::int64_t* axis, std::int64_t difference) {
+            std::int64_t correction = difference * gain;
+            if constexpr (soft || far) {
+                const int left = d.extra - parameters_.product_shift;
+                correction = left == 0 ? correction : shift_either_way(correction, left);
+            }
+            std::int64_t* x = as_it_stands(axis);
             x[a] = wrapping_add(x[a], correction);
             x[b] = wrapping_subtract(x[b], correction);
         };
@@ -238,6 +250,8 @@ private:
     const std::uint32_t* shares_b_;
     const std::uint32_t* relaxations_;
     DistanceParameters parameters_;
+    std::int64_t difference_rounding_;
+    std::int64_t gain_rounding_;
     DistanceArrays arrays_;
 };
 
