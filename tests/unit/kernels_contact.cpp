@@ -37,7 +37,7 @@ std::int32_t direction(test::Random& random) {
 } // namespace
 
 TEST_CASE("kernels: every instruction set finds the particles that may touch a collider") {
-    const std::uint64_t problems = test::sample_count() / 200;
+    const std::uint64_t problems = test::sample_count() / 32; // of 32 particles on the average
     for (const Kernels* kernels : test::wide_kernels()) {
         INFO(std::string(simd_name(kernels->level)));
         test::Random random(3);

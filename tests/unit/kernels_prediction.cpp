@@ -55,7 +55,7 @@ Particles make_particles(test::Random& random, std::size_t count, std::int64_t l
 } // namespace
 
 TEST_CASE("kernels: every instruction set predicts as plain integers do and counts the same clamps") {
-    const std::uint64_t problems = test::sample_count() / 500;
+    const std::uint64_t problems = test::sample_count() / 100; // of 100 particles on the average
     for (const Kernels* kernels : test::wide_kernels()) {
         INFO(std::string(simd_name(kernels->level)));
         test::Random random(7);
