@@ -1,0 +1,163 @@
+// Blocks that take long now and then, and helpers that come late: who takes which block changes all the time,
+// and nothing else does.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+#include "fixed_samples.h"
+#include "kernels/kernels.h"
+#include "solver/world.h"
+#include "support/builders.h"
+#include "support/scene.h"
+#include "threads/team.h"
+
+using namespace support;
+
+namespace {
+
+// Sleeps, gives way or does nothing, each time anew.
+void dawdle() {
+    static std::atomic<std::uint64_t> seed{0};
+    lks::test::Random random(seed.fetch_add(1, std::memory_order_relaxed));
+    const std::uint64_t mood = random.below(128);
+    if (mood == 0) {
+        std::this_thread::sleep_for(std::chrono::microseconds(random.below(300)));
+    } else if (mood < 32) {
+        std::this_thread::yield();
+    }
+}
+
+const lks::Kernels& prompt() {
+    static const lks::Kernels& kernels = *lks::find_kernels(LKS_SIMD_AUTO);
+    return kernels;
+}
+
+// The kernels of this machine, none of which starts or ends on time.
+const lks::Kernels& dawdling() {
+    static const lks::Kernels kernels{
+        prompt().level,
+        [](const lks::DistanceTask& task) {
+            dawdle();
+            prompt().project_distances(task);
+            dawdle();
+        },
+        [](const lks::PredictionTask& task) {
+            dawdle();
+            return prompt().predict(task);
+        },
+        [](const lks::BoxTask& task, std::uint32_t first, std::uint32_t count) {
+            dawdle();
+            return prompt().near_box(task, first, count);
+        },
+        prompt().near_plane,
+        [](const lks::TetherTask& task, std::uint32_t first, std::uint32_t count) {
+            dawdle();
+            return prompt().beyond_tether(task, first, count);
+        },
+        prompt().measure_chain,
+        prompt().hash_update};
+    return kernels;
+}
+
+struct Stretched {
+    Asset sheet;
+    Asset net;
+
+    static Asset make(std::uint32_t side, const std::vector<std::uint32_t>& anchors) {
+        Net net;
+        net.side = side;
+        net.shear = soft(1e-6, 2);
+        net.anchors = anchors;
+        return net.build();
+    }
+    Stretched() : sheet(make(72, {0, 71})), net(make(9, {})) {}
+
+    std::vector<std::uint64_t> hashes(std::uint32_t workers, const lks::Kernels& kernels) const {
+        lks_world_def def = world_def(60, 5, 2);
+        def.worker_count = workers;
+        World world(def);
+        static_cast<lks_world*>(world)->kernels = &kernels;
+        world.add(lks_default_collider_def());
+        const lks_object_id large = world.add(sheet, at(-1, 1, -1));
+        world.pin(large, 0);
+        world.pin(large, 71);
+        for (int i = 0; i < 12; ++i) {
+            world.add(net, at(i, 2, 0.1 * i));
+        }
+        std::vector<std::uint64_t> found;
+        for (int tick = 0; tick < 8; ++tick) {
+            world.step();
+            found.push_back(world.hash());
+        }
+        return found;
+    }
+};
+
+} // namespace
+
+TEST_CASE("threads: whoever takes which block, and however long it takes, hashes are the same") {
+    const Stretched scene;
+    const std::vector<std::uint64_t> expected = scene.hashes(1, prompt());
+    for (std::uint32_t workers = 1; workers <= 8; ++workers) {
+        CAPTURE(workers);
+        CHECK(scene.hashes(workers, dawdling()) == expected);
+    }
+}
+
+TEST_CASE("threads: each block of a stage runs once, and none after its stage is over") {
+    constexpr std::uint32_t helper_count = 7;
+    constexpr std::uint32_t most_blocks = 40;
+    struct Context {
+        std::atomic<std::uint32_t> runs[most_blocks] = {};
+        std::atomic<std::uint32_t> by_worker[helper_count + 1] = {};
+        std::atomic<bool> over{true};
+        std::atomic<std::uint32_t> late{0};
+    };
+    Context context;
+    const auto run = [](void* argument, std::uint32_t block, std::uint32_t worker) {
+        Context& c = *static_cast<Context*>(argument);
+        dawdle();
+        c.late += c.over ? 1 : 0;
+        ++c.runs[block];
+        ++c.by_worker[worker];
+    };
+    lks::Team team;
+    std::uint32_t wrong = 0;
+    std::uint32_t total = 0;
+    lks::test::Random random(6);
+    for (int tick = 0; tick < 20; ++tick) {
+        team.open();
+        std::vector<std::thread> helpers;
+        for (std::uint32_t i = 1; i <= helper_count; ++i) {
+            helpers.emplace_back([&team, i] {
+                dawdle();
+                team.help(i);
+            });
+        }
+        for (int stage = 0; stage < 50; ++stage) {
+            const auto blocks = static_cast<std::uint32_t>(random.below(most_blocks + 1));
+            context.over = false;
+            team.run({run, &context, blocks});
+            context.over = true;
+            total += blocks;
+            for (std::uint32_t block = 0; block < most_blocks; ++block) {
+                wrong += context.runs[block].exchange(0) != (block < blocks ? 1u : 0u) ? 1 : 0;
+            }
+        }
+        team.close();
+        for (std::thread& helper : helpers) {
+            helper.join();
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(context.late == 0);
+    std::uint32_t sum = 0;
+    for (const std::atomic<std::uint32_t>& count : context.by_worker) {
+        sum += count;
+    }
+    CHECK(sum == total);
+    CHECK(context.by_worker[0] < total); // others did help
+}
