@@ -37,6 +37,10 @@ bool is_ours(const std::string& variant) {
     return variant.rfind("float32", 0) != 0 && variant.rfind("Bullet", 0) != 0;
 }
 
+std::string title_of(const std::string& variant) {
+    return " title '" + (is_ours(variant) ? "ours, " + variant : variant);
+}
+
 // Blue is ours, orange float32 with the same care, grey plain float32, green what comes in packages.
 std::string colour_of(const std::string& variant) {
     static const std::pair<const char*, const char*> colours[] = {
@@ -61,7 +65,7 @@ std::string colour_of(const std::string& variant) {
 }
 
 void size_plot(const Results& results, Script& script) {
-    script.command("set logscale xy\nset xlabel 'constraints'\nset format x '10^{%T}'");
+    script.command("set logscale xy\nset xlabel 'constraints'\nset xrange [*:2e6]\nset format x '10^{%T}'");
     script.command("set ylabel 'nanoseconds a projection, whole tick'");
     std::vector<std::string> curves;
     for (const std::string& variant : variants_of(results, "growth", "tick")) {
@@ -74,8 +78,7 @@ void size_plot(const Results& results, Script& script) {
             }
         }
         curves.push_back(script.data(lines) + " with linespoints pt 7 lw 2 " +
-                         (is_ours(variant) ? "dt 1" : "dt 2") + colour_of(variant) + " title '" + variant +
-                         "'");
+                         (is_ours(variant) ? "dt 1" : "dt 2") + colour_of(variant) + title_of(variant) + "'");
     }
     script.command("plot " + comma_separated(curves));
 }
@@ -96,7 +99,7 @@ void bar_plot(const Results& results, const std::vector<std::string>& workloads,
             lines +=
                 workload + " " + (cost != nullptr ? std::to_string(cost->value) : std::string("NaN")) + "\n";
         }
-        bars.push_back(script.data(lines) + " using 2:xtic(1)" + colour_of(variant) + " title '" + variant +
+        bars.push_back(script.data(lines) + " using 2:xtic(1)" + colour_of(variant) + title_of(variant) +
                        "'");
     }
     script.command("plot " + comma_separated(bars));
@@ -129,7 +132,7 @@ void error_plot(const Results& results, Script& script) {
                 }
             }
             curves.push_back(script.data(lines) + " with linespoints lw 2" + colour_of(variant) +
-                             (substeps ? " dt 1 pt 7" : " dt 2 pt 6") + " title '" + variant +
+                             (substeps ? " dt 1 pt 7" : " dt 2 pt 6") + title_of(variant) +
                              (substeps ? ", substeps" : ", iterations") + "'");
         }
     }
