@@ -75,6 +75,20 @@ TEST_CASE("a spring hangs within 0.1 % of the analytic sag at every tick rate an
     CHECK(check_table("spring, 1 kg, 1e-2 m/N", hanging, 0.001) > 0);
 }
 
+TEST_CASE("a spring that is swept sags no less with two iterations than with one") {
+    Hanging hanging;
+    hanging.chain.direction = {0, -1, 0};
+    hanging.chain.segments = 1;
+    hanging.chain.length = 1;
+    hanging.chain.stretch = soft(0.01);
+    hanging.chain.solver = LKS_ROPE_SWEPT;
+    hanging.air = 5;
+    hanging.seconds = 8;
+    for (const std::uint32_t iterations : {1u, 2u, 3u}) {
+        CHECK(sag(hanging, 60, iterations) == doctest::Approx(analytic_sag(hanging.chain)).epsilon(0.001));
+    }
+}
+
 TEST_CASE("a rope soft enough for 5 iterations hangs within 0.1 % of the analytic sag at every setting") {
     Hanging hanging;
     hanging.chain.direction = {0, -1, 0};

@@ -28,6 +28,7 @@ public:
 
     lks_task_system interface() { return {this, enqueue, finish}; }
     std::uint64_t tasks() const { return tasks_; }
+    bool all_awaited() const { return awaited_ == (temper_ == Temper::at_once ? 0 : tasks_); }
 
 private:
     struct Pending {
@@ -54,7 +55,8 @@ private:
         return pending;
     }
 
-    static void finish(void*, void* handle) {
+    static void finish(void* user, void* handle) {
+        ++static_cast<TaskSystem*>(user)->awaited_;
         auto* pending = static_cast<Pending*>(handle);
         if (pending->thread.joinable()) {
             pending->thread.join();
@@ -67,6 +69,7 @@ private:
     Temper temper_;
     Random random_{5};
     std::uint64_t tasks_ = 0;
+    std::uint64_t awaited_ = 0;
 };
 
 // A cloth that is large enough for blocks of its phases, thrown over colliders, and a crowd of small things.
@@ -104,6 +107,9 @@ struct Crowd {
         for (int i = 0; i < 9; ++i) {
             const lks_object_id small = world.add(i % 2 == 0 ? net : chain, at(i - 4.0, 0.5 * i, 0.2 * i));
             world.pin(small, 0);
+            if (i % 2 == 0) {
+                REQUIRE(lks_object_apply_impulse(world, small, 70, fixed(5, 9, 5)) == LKS_OK);
+            }
         }
         const lks_object_id large = world.add(sheet, turned(at(-1.5, 0, -1), 1, 0, 0, 80));
         world.pin(large, 5);
@@ -181,6 +187,7 @@ TEST_CASE("a game's tasks give the same hashes however late and in whatever orde
             def.tasks = system.interface();
             CHECK(crowd.hashes(def, ticks) == expected);
             CHECK(system.tasks() == ticks * (workers - 1));
+            CHECK(system.all_awaited());
         }
     }
 }
