@@ -115,7 +115,7 @@ struct Crowd {
         world.pin(large, 5);
         // Some of it faster than it may be: the counters have to agree as well.
         for (std::uint32_t vertex = 100; vertex < 4000; vertex += 7) {
-            REQUIRE(lks_object_apply_impulse(world, large, vertex, fixed(30, 1, -20)) == LKS_OK);
+            REQUIRE(lks_object_apply_impulse(world, large, vertex, fixed(30, -5, -20)) == LKS_OK);
         }
         std::vector<std::uint64_t> found;
         for (int tick = 0; tick < ticks; ++tick) {

@@ -253,3 +253,44 @@ TEST_CASE("kernels: every instruction set projects random and extreme edges as p
         }
     }
 }
+
+TEST_CASE("kernels: a part of a run writes nothing behind its end, where others may be at work") {
+    // One end's particles lie behind the other's: what is written there again as it was undoes their
+    // movement.
+    constexpr std::uint32_t part = 3;
+    const Run run{0, 21, part, 0, widest_group - 1};
+    const Constraint none{};
+    const std::vector<std::uint32_t> rests(2 * widest_group, 0x80000000u); // an eighth of a metre
+    const std::vector<std::uint32_t> shares(2 * widest_group, unit_one / 2);
+    const auto projected = [&](const Kernels& kernels) {
+        std::vector<std::int64_t> axes(6 * widest_group, 0);
+        std::fill_n(axes.begin() + part, part, coordinate_one / 10);
+        BatchPart cut{};
+        cut.range = {0, part};
+        cut.runs = &run;
+        cut.run_count = 1;
+        cut.first_single = run.count;
+        DistanceTask task{};
+        task.parts = &cut;
+        task.part_count = 1;
+        task.constraints = &none;
+        task.rest_mantissas = rests.data();
+        task.shares_a = task.shares_b = shares.data();
+        task.parameters = {26, 4, 35, 0, unit_one, 0};
+        task.arrays = {axes.data(),
+                       axes.data() + 2 * widest_group,
+                       axes.data() + 4 * widest_group,
+                       nullptr,
+                       nullptr,
+                       nullptr,
+                       nullptr};
+        kernels.project_distances(task);
+        return axes;
+    };
+    const std::vector<std::int64_t> expected = projected(kernels_scalar);
+    CHECK(expected[part] > coordinate_one / 10);
+    for (const Kernels* kernels : test::wide_kernels()) {
+        INFO(std::string(simd_name(kernels->level)));
+        CHECK(projected(*kernels) == expected);
+    }
+}

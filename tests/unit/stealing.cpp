@@ -7,14 +7,12 @@
 #include <thread>
 #include <vector>
 
-#include "fixed/formats.h"
 #include "fixed_samples.h"
 #include "kernels/kernels.h"
 #include "solver/world.h"
 #include "support/builders.h"
 #include "support/scene.h"
 #include "threads/team.h"
-#include "wide_kernels.h"
 
 using namespace support;
 
@@ -124,54 +122,6 @@ TEST_CASE("threads: whoever takes which block, and however long it takes, hashes
     for (std::uint32_t workers = 1; workers <= 8; ++workers) {
         CAPTURE(workers);
         CHECK(scene.hashes(workers, dawdling()) == expected);
-    }
-}
-
-TEST_CASE("threads: a part of a run leaves alone what follows it, which others move meanwhile") {
-    constexpr std::uint32_t length = 21;
-    constexpr std::uint32_t behind = 5; // where the part ends
-    constexpr std::uint32_t room = 3 * lks::widest_group;
-    for (const lks::Kernels* kernels : lks::test::wide_kernels()) {
-        std::vector<std::int64_t> axes[6];
-        for (std::vector<std::int64_t>& axis : axes) {
-            axis.assign(2 * room, 0);
-        }
-        for (std::uint32_t i = 0; i < length; ++i) {
-            axes[0][room + i] = lks::coordinate_one / 10; // of an eighth at rest
-        }
-        const std::vector<std::uint32_t> rests(2 * room, 0x80000000u);
-        const std::vector<std::uint32_t> shares(2 * room, lks::unit_one / 2);
-        const lks::Run run{0, length, 0, room, lks::widest_group - 1};
-        const std::vector<lks::Constraint> none;
-        lks::DistanceTask task{};
-        task.range = {0, behind};
-        task.runs = &run;
-        task.run_count = 1;
-        task.first_single = length;
-        task.constraints = none.data();
-        task.rest_mantissas = rests.data();
-        task.shares_a = task.shares_b = shares.data();
-        task.parameters = {26, 4, 35, 0, lks::unit_one, 0};
-        task.arrays = {axes[0].data(), axes[1].data(), axes[2].data(), nullptr, nullptr, nullptr, nullptr};
-        task.equal_shares = true;
-        std::atomic<bool> over{false};
-        std::int64_t steps = 0;
-        std::thread other([&] {
-            const std::atomic_ref<std::int64_t> next_a(axes[1][behind]);
-            const std::atomic_ref<std::int64_t> next_b(axes[1][room + behind]);
-            for (; !over || steps == 0; ++steps) {
-                next_a.fetch_add(1, std::memory_order_relaxed);
-                next_b.fetch_sub(1, std::memory_order_relaxed);
-            }
-        });
-        for (int i = 0; i < 50000; ++i) {
-            kernels->project_distances(task);
-        }
-        over = true;
-        other.join();
-        CHECK(axes[1][behind] == steps);
-        CHECK(axes[1][room + behind] == -steps);
-        CHECK(axes[0][0] != 0); // the part did move
     }
 }
 
