@@ -572,7 +572,8 @@ private:
     }
 
     LKS_FORCE_INLINE R length_of(R f, R m, R y, R twice_k) const {
-        const R root = L::template shift_right<31>(L::multiply_unsigned(m, y));
+        const R rounded = L::template shift_right<31>(L::multiply_unsigned(m, y));
+        const R root = L::select_by_sign_32(rounded, L::set(INT32_MAX), rounded);
         const R product = L::multiply_signed(f, root);
         const R right = L::add(length_shift_, L::template shift_right<1>(twice_k));
         const R lift = L::set(std::int64_t{1} << 62);

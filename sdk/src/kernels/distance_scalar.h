@@ -20,6 +20,11 @@ inline std::int64_t shift_right_rounded(std::int64_t value, int shift) {
     return wrapping_add(value, std::int64_t{1} << (shift - 1)) >> shift;
 }
 
+// The same without the sum, which the longest differences have no room for.
+inline std::int64_t shift_right_rounded_any(std::int64_t value, int shift) {
+    return (value >> shift) + ((value >> (shift - 1)) & 1);
+}
+
 // All within [-2^30, 2^30).
 inline bool fit_differences(std::int64_t x, std::int64_t y, std::int64_t z) {
     return static_cast<std::uint64_t>((x + direction_one) | (y + direction_one) | (z + direction_one)) <
@@ -48,8 +53,8 @@ inline NarrowDifference narrow_far(const Difference& d, int shift) {
     const std::int64_t largest = (d.x ^ (d.x >> 63)) | (d.y ^ (d.y >> 63)) | (d.z ^ (d.z >> 63));
     // One bit of room for the rounding: |d| < 2^30 afterwards.
     const int extra = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(largest))) - 30 - shift;
-    return {shift_right_rounded(d.x, shift + extra), shift_right_rounded(d.y, shift + extra),
-            shift_right_rounded(d.z, shift + extra), extra};
+    return {shift_right_rounded_any(d.x, shift + extra), shift_right_rounded_any(d.y, shift + extra),
+            shift_right_rounded_any(d.z, shift + extra), extra};
 }
 
 // value / len in Direction format, where 1/len = y·2^(k−62); |value| ≤ 2^31.
@@ -159,8 +164,9 @@ private:
     std::int64_t relative_motion(std::uint32_t a, std::uint32_t b, const NarrowDifference& d, std::uint64_t u,
                                  std::uint32_t y, int k, int scale) const {
         const auto start_difference = [&](const std::int64_t* start) {
-            return std::clamp<std::int64_t>(shift_right_rounded(wrapping_subtract(start[a], start[b]), scale),
-                                            -direction_one, direction_one - 1);
+            return std::clamp<std::int64_t>(
+                shift_right_rounded_any(wrapping_subtract(start[a], start[b]), scale), -direction_one,
+                direction_one - 1);
         };
         const auto squared = static_cast<std::int64_t>(u); // below 2^62, so that k ≥ 1
         const std::int64_t dot =
@@ -176,8 +182,9 @@ private:
 
     // f·len in Coordinate format, rounded down.
     static std::int64_t length_of(std::int64_t f, std::uint64_t u, std::uint32_t y, int k, int scale) {
-        const std::uint64_t m = (u << (2 * k)) >> 32;               // Q2.30 in [1, 4)
-        const auto root = static_cast<std::int64_t>((m * y) >> 31); // √m in Q1.30
+        const std::uint64_t m = (u << (2 * k)) >> 32; // Q2.30 in [1, 4)
+        // √m in Q1.30. Just below m = 4 it may come to 2^31 or one more, for which 32-bit lanes have no room.
+        const auto root = static_cast<std::int64_t>(std::min<std::uint64_t>((m * y) >> 31, INT32_MAX));
         const int right = 30 + k - scale;
         const std::int64_t twice = 2 * f * root;
         return right >= 0 ? twice >> right : shift_either_way(twice, -right);
