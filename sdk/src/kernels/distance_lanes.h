@@ -53,13 +53,12 @@ struct RunAccess {
             use(constraint + lane, a + lane, b + lane);
         }
     }
-    // Nothing for the others.
-    LKS_FORCE_INLINE Group<L> still_due(const Group<L>& values) const {
-        if (done == 0) {
-            return values;
+    // Nothing for them.
+    LKS_FORCE_INLINE void clear_done(Group<L>& values) const {
+        if (done != 0) {
+            const std::int64_t* bits = lane_bits + widest_group - done;
+            values = {L::bit_and(values.a, L::load(bits)), L::bit_and(values.b, L::load(bits + L::half))};
         }
-        const std::int64_t* bits = lane_bits + widest_group - done;
-        return {L::bit_and(values.a, L::load(bits)), L::bit_and(values.b, L::load(bits + L::half))};
     }
 
     LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
@@ -133,8 +132,8 @@ struct PartialAccess {
         store_lanes(values + run.constraint, group);
     }
     LKS_FORCE_INLINE Group<L> load(const std::uint32_t* values) const { return run.load(values); }
-    // They have no difference, either.
-    LKS_FORCE_INLINE static Group<L> still_due(const Group<L>& values) { return values; }
+    // Those have no difference.
+    static void clear_done(const Group<L>&) {}
 
     template <typename Use>
     void for_each(const Use& use) const {
@@ -186,7 +185,7 @@ struct SinglesAccess {
             use(constraint + i, ends[i].a, ends[i].b);
         }
     }
-    LKS_FORCE_INLINE static Group<L> still_due(const Group<L>& values) { return values; }
+    static void clear_done(const Group<L>&) {}
 
     LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
         return {L::gather(x, &ends[0].a), L::gather(x, &ends[L::half].a)};
@@ -408,8 +407,8 @@ private:
         if constexpr (soft && (damped || multiplier)) {
             group.plain = !soften(at, group, lengths, group.f) || group.plain;
         }
-        group.f = at.still_due(group.f);
         if constexpr (multiplier) {
+            at.clear_done(group.f);
             if (!group.plain) {
                 add_to_multipliers(at, lengths, group.f);
             }
@@ -664,6 +663,7 @@ public:
         find_corrections<L::interleaved>(at, staged, count);
         bool alike = true;
         for (std::uint32_t i = 0; i < count; ++i) {
+            at[i].clear_done(staged[i].f);
             alike = alike && !is_in(unequal_, at[i].first_constraint());
         }
         alike ? move<true>(at, staged, count) : move<false>(at, staged, count);
@@ -796,8 +796,12 @@ template <typename L, typename Stage>
 inline void project_runs(const BatchPart& part, const Stage& stages) {
     RunGroups<L, Stage> runs(part, stages);
     RunAccess<L> groups[L::together];
-    while (const std::uint32_t count = runs.take(groups)) {
-        stages.project(groups, count);
+    std::uint32_t count;
+    while ((count = runs.take(groups)) == L::together) {
+        stages.project(groups, L::together);
+    }
+    if (count != 0) {
+        stages.project_apart(groups, count);
     }
     runs.finish();
 }
