@@ -1,6 +1,7 @@
 // Who falls asleep, who does not, and what wakes them.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -201,4 +202,66 @@ TEST_CASE("what bounces by four centimetres stays awake, by four millimetres not
         world.step(300);
         CHECK(lks_body_is_awake(world, ball) == (amplitude > 0.01 ? 1u : 0u));
     }
+}
+
+TEST_CASE("a pendulum swings on, however slow it is where it turns") {
+    struct Swing {
+        double length, amplitude;
+    };
+    for (const Swing swing : {Swing{2, 0.1}, Swing{2, 0.04}, Swing{0.5, 0.04}, Swing{10, 0.1}}) {
+        World world(world_def(60, 8));
+        const double down = std::sqrt(swing.length * swing.length - swing.amplitude * swing.amplitude);
+        // The second one may not sleep.
+        lks_body_id bobs[2];
+        for (int i = 0; i < 2; ++i) {
+            const lks_body_id anchor = add_anchor(world, fixed(0, 0, i));
+            lks_body_def def = lks_default_body_def();
+            def.never_sleeps = i == 1 ? 1 : 0;
+            bobs[i] = add_body(world, ball_shape(0.05), fixed(swing.amplitude, -down, i), def);
+            lks_joint_def joint = lks_default_joint_def();
+            joint.kind = LKS_JOINT_DISTANCE;
+            joint.distance_min = joint.distance_max = fixed(swing.length);
+            add_joint(world, joint, anchor, bobs[i]);
+        }
+        world.step(1800);
+        CHECK(lks_body_is_awake(world, bobs[0]) == 1);
+        CHECK(state_of(world, bobs[0]).position.x == state_of(world, bobs[1]).position.x);
+    }
+}
+
+TEST_CASE("what drifts goes on, unless it stays within a centimetre for two seconds") {
+    for (const double speed : {0.05, 0.01, 0.003}) {
+        lks_world_def weightless = world_def(60, 8);
+        weightless.gravity = {};
+        World world(weightless);
+        lks_body_def def = lks_default_body_def();
+        def.velocity = fixed(speed, 0, 0);
+        const lks_body_id ball = add_body(world, ball_shape(0.1), {}, def);
+        world.step(100);
+        CHECK(lks_body_is_awake(world, ball) == 1);
+        world.step(500);
+        CHECK(lks_body_is_awake(world, ball) == (speed > 0.005 ? 1u : 0u));
+        if (speed > 0.005) {
+            CHECK(std::abs(state_of(world, ball).position.x - 10 * speed) < 1e-6);
+        }
+    }
+}
+
+TEST_CASE("a ragdoll that hangs by its head comes to rest") {
+    World world(world_def(60, 8));
+    Humanoid human;
+    human.def.velocity = fixed(0.5, 0, 0.2);
+    lks_body_id bodies[LKS_HUMANOID_BONES];
+    REQUIRE(human.add(world, bodies) == LKS_OK);
+    const Vector head = state_of(world, bodies[LKS_HUMANOID_HEAD]).position;
+    const lks_body_id anchor = add_anchor(world, fixed(head.x, head.y, head.z));
+    lks_joint_def joint = lks_default_joint_def();
+    joint.friction = LKS_FIXED(5);
+    add_joint(world, joint, anchor, bodies[LKS_HUMANOID_HEAD]);
+    int tick = 0;
+    for (; tick < 3600 && lks_world_awake_body_count(world) > 0; ++tick) {
+        world.step();
+    }
+    MESSAGE("a ragdoll that hangs by its head is asleep after " << tick / 60.0 << " s");
+    CHECK(tick < 1800);
 }

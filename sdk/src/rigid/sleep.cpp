@@ -13,6 +13,8 @@ using fixed::Vec3;
 constexpr std::int64_t still_distance = (std::int64_t{1} << world_fraction_bits) / 100;
 // Half turns: two degrees.
 constexpr std::int64_t still_turn = turn_one / 57;
+// How many times longer than others what touches nothing has to stay.
+constexpr std::uint32_t hanging_factor = 4;
 
 // What joints and pushing contacts hold together.
 BodyRoots find_islands(RigidScene& scene) {
@@ -60,19 +62,24 @@ void for_each_disturbed(const lks_world& world, const Use& use) {
 
 void mark_touched(RigidScene& scene) {
     for (Body& body : scene.bodies) {
-        body.touched = false;
+        body.touched = body.figure_touched = false;
     }
+    const auto mark = [&](std::uint32_t body) {
+        scene.bodies[body].touched = true;
+        scene.bodies[scene.figures[body]].figure_touched = true;
+    };
     for (const ContactMemory& memory : scene.memories) {
-        scene.bodies[memory.key.body_a].touched = true;
+        mark(memory.key.body_a);
         if (memory.key.other < other_is_collider) {
-            scene.bodies[memory.key.other].touched = true;
+            mark(memory.key.other);
         }
     }
 }
 
 // Counts the ticks for which a body has trembled at one place, or crept. A twitch of a limb takes back some
-// of them, a real motion all.
-void count_rest(Body& body, std::int64_t radius, std::uint32_t most) {
+// of them, a real motion all. Slow is a pendulum, too, where it turns: of what hangs or floats only those
+// ticks count that it has stayed.
+void count_rest(Body& body, std::int64_t radius, bool hangs, std::uint32_t most) {
     constexpr std::int64_t slow = (std::int64_t{1} << world_fraction_bits) / 10;
     constexpr std::int64_t fast = (std::int64_t{1} << world_fraction_bits) / 2;
     constexpr std::uint32_t twitch = 8;
@@ -84,8 +91,10 @@ void count_rest(Body& body, std::int64_t radius, std::uint32_t most) {
         body.rest_orientation = body.orientation;
     }
     const std::int64_t speed = greatest_speed(body, radius);
-    if (stayed || speed <= slow) {
+    if (stayed || (!hangs && speed <= slow)) {
         body.rest_ticks = std::min(body.rest_ticks + 1, most);
+    } else if (hangs) {
+        body.rest_ticks = 0;
     } else {
         body.rest_ticks = speed > fast || body.rest_ticks < twitch ? 0 : body.rest_ticks - twitch;
     }
@@ -149,11 +158,14 @@ void fall_asleep(lks_world& world) {
     RigidScene& scene = world.rigid;
     const std::uint32_t enough = std::max(world.rate.ticks_per_second / 2, 2u);
     mark_touched(scene);
+    // A figure without a contact is an island by itself.
+    const auto hangs = [&](std::size_t i) { return !scene.bodies[scene.figures[i]].figure_touched; };
     bool ready = false;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         Body& body = scene.bodies[i];
         if (body.is_awake()) {
-            count_rest(body, scene.descriptions[i].radius, 2 * enough);
+            const bool alone = hangs(i);
+            count_rest(body, scene.descriptions[i].radius, alone, (alone ? hanging_factor : 2) * enough);
             if (body.touched && body.rest_ticks >= enough / 3 && scene.descriptions[i].never_sleeps == 0) {
                 calm(body);
             }
@@ -175,7 +187,8 @@ void fall_asleep(lks_world& world) {
         const Body& body = scene.bodies[i];
         if (body.is_dynamic()) {
             std::uint32_t& rest = least[islands.root(i)];
-            rest = std::min(rest, scene.descriptions[i].never_sleeps != 0 ? 0 : body.rest_ticks);
+            const std::uint32_t own = hangs(i) ? body.rest_ticks / hanging_factor : body.rest_ticks;
+            rest = std::min(rest, scene.descriptions[i].never_sleeps != 0 ? 0 : own);
         }
     }
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
