@@ -57,9 +57,9 @@ CrowdPile::CrowdPile() : Crowd(true) {
         lks_transform place = lks_transform_identity();
         place.position =
             millimetres(across ? along : beside, 900 + 1150 * layer + 90 * column, across ? beside : along);
-        // Face down, head first along z, or along x: a third of a turn about (1, 1, 1).
+        // Face down, head first along z, or along x: a third of a turn about (1, 1, -1).
         if (across) {
-            lks_rotation_from_axis_angle(1, 1, 1, 120, &place.rotation);
+            lks_rotation_from_axis_angle(1, 1, -1, 120, &place.rotation);
         } else {
             lks_rotation_from_axis_angle(1, 0, 0, 90, &place.rotation);
         }
