@@ -88,11 +88,32 @@ std::int64_t signed_below(test::Random& random, int bits) {
     return static_cast<std::int64_t>(random.bits()) >> (63 - bits);
 }
 
+// Of 2^rest_bits to 2^(rest_bits + 1) units long, and now and then about as long as either.
+void place_in_octave(test::Random& random, std::vector<std::int64_t>& positions, std::uint32_t n,
+                     const Constraint& ends, int rest_bits, int shift) {
+    const std::uint64_t longest = random.below(3);
+    const bool at_end = random.below(128) == 0;
+    const std::int64_t least = std::int64_t{1} << (rest_bits + shift);
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        std::int64_t edge = at_end ? 0 : signed_below(random, rest_bits + shift - 1);
+        if (axis == longest) {
+            edge = at_end ? (least << random.below(2)) + signed_below(random, shift + 1)
+                          : least + static_cast<std::int64_t>(
+                                        random.below(3 * (static_cast<std::uint64_t>(least) >> 2)));
+            edge = random.below(2) == 0 ? edge : -edge;
+        }
+        positions[axis * n + ends.b] = positions[axis * n + ends.a] + edge;
+    }
+}
+
 Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind) {
     Problem problem{};
     problem.short_runs = random.below(2) == 0;
-    // In half of the problems nothing leaves the fast range, or hardly any group would stay in it.
-    const bool calm = random.below(2) == 0;
+    // In most of the problems nothing leaves the fast range, or hardly any group would stay in it; in some of
+    // these lengths are in the octave of the longest rest length, or hardly any group would be.
+    const std::uint64_t mood = random.below(3);
+    const bool calm = mood != 0;
+    const bool in_octave = mood == 2;
     const std::size_t count = batch.constraints.size();
     const std::uint32_t n = batch.particles;
     const int shift = 20 + static_cast<int>(random.bits() % 11);
@@ -146,6 +167,9 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
         for (std::uint32_t axis = 0; axis < 3; ++axis) {
             std::int64_t* x = problem.positions.data() + axis * n;
             x[ends.b] = x[ends.a] + signed_below(random, reach > 60 ? 60 : reach);
+        }
+        if (in_octave) {
+            place_in_octave(random, problem.positions, n, ends, rest_bits, shift);
         }
         if (!calm && random.below(101) == 0) {
             for (std::uint32_t axis = 0; axis < 3; ++axis) {

@@ -1,23 +1,22 @@
 // A range of one batch, groups of 2·L::half constraints at a time: kernels/distance_scalar.h over lanes.
 //
 // L is one instruction set: registers of L::half 64-bit lanes and a few operations on them. A group of
-// constraints is two registers of coordinates, A and B; what is 32 bits wide is kept in one register, A's in
-// the even halves and B's in the odd ones, where 32×32→64 multiplications find it. Some groups go through
+// constraints is two registers of coordinates, A and B; what is 32 bits wide is kept where 32×32→64
+// multiplications find it, and worked on in one register (kernels/factors.h). Some groups go through
 // each stage together (differences, corrections, movements): a group's steps wait for each other, and the
 // steps of its neighbours fill the time. A group in which a lane leaves the fast range (an edge 2^30 units
 // long, or shorter than 2^16) is projected in plain integers, which gives the same bits.
 #pragma once
 
+#include <utility>
+
 #include "kernels/distance_scalar_loop.h"
+#include "kernels/factors.h"
 #include "kernels/force_inline.h"
+#include "kernels/shift_lanes.h"
 
 namespace lks {
 namespace {
-
-template <typename L>
-struct Group {
-    typename L::Register a, b;
-};
 
 template <typename L>
 struct LaneValues {
@@ -54,10 +53,10 @@ struct RunAccess {
         }
     }
     // Nothing for them.
-    LKS_FORCE_INLINE void clear_done(Group<L>& values) const {
+    LKS_FORCE_INLINE void clear_done(Factors<L>& values) const {
         if (done != 0) {
             const std::int64_t* bits = lane_bits + widest_group - done;
-            values = {L::bit_and(values.a, L::load(bits)), L::bit_and(values.b, L::load(bits + L::half))};
+            values = FactorsOf<L>::masked(values, {L::load(bits), L::load(bits + L::half)});
         }
     }
 
@@ -85,8 +84,8 @@ struct RunAccess {
         L::store(values + constraint, group.a);
         L::store(values + constraint + L::half, group.b);
     }
-    LKS_FORCE_INLINE Group<L> load(const std::uint32_t* values) const {
-        return {L::load_widened(values + constraint), L::load_widened(values + constraint + L::half)};
+    LKS_FORCE_INLINE Factors<L> load(const std::uint32_t* values) const {
+        return FactorsOf<L>::load(values + constraint);
     }
 };
 
@@ -131,9 +130,9 @@ struct PartialAccess {
     LKS_FORCE_INLINE void store_wide(std::int64_t* values, const Group<L>& group) const {
         store_lanes(values + run.constraint, group);
     }
-    LKS_FORCE_INLINE Group<L> load(const std::uint32_t* values) const { return run.load(values); }
+    LKS_FORCE_INLINE Factors<L> load(const std::uint32_t* values) const { return run.load(values); }
     // Those have no difference.
-    static void clear_done(const Group<L>&) {}
+    static void clear_done(const Factors<L>&) {}
 
     template <typename Use>
     void for_each(const Use& use) const {
@@ -185,7 +184,7 @@ struct SinglesAccess {
             use(constraint + i, ends[i].a, ends[i].b);
         }
     }
-    static void clear_done(const Group<L>&) {}
+    static void clear_done(const Factors<L>&) {}
 
     LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
         return {L::gather(x, &ends[0].a), L::gather(x, &ends[L::half].a)};
@@ -214,8 +213,8 @@ struct SinglesAccess {
             values[constraint + i] = parts.values[i];
         }
     }
-    LKS_FORCE_INLINE Group<L> load(const std::uint32_t* values) const {
-        return {L::load_widened(values + constraint), L::load_widened(values + constraint + L::half)};
+    LKS_FORCE_INLINE Factors<L> load(const std::uint32_t* values) const {
+        return FactorsOf<L>::load(values + constraint);
     }
 };
 
@@ -228,48 +227,77 @@ struct Each {
 
 // One step for each of n groups, so that steps of different groups follow each other: those of one group wait
 // for each other.
+template <typename Step, std::uint32_t... indices>
+LKS_FORCE_INLINE auto of_these(const Step& step, std::integer_sequence<std::uint32_t, indices...>) {
+    return Each<decltype(step(0u)), sizeof...(indices)>{{step(indices)...}};
+}
 template <std::uint32_t n, typename Step>
 LKS_FORCE_INLINE auto of_each(const Step& step) {
-    Each<decltype(step(0u)), n> values;
-#pragma GCC unroll 8
-    for (std::uint32_t i = 0; i < n; ++i) {
-        values.at[i] = step(i);
-    }
-    return values;
+    return of_these(step, std::make_integer_sequence<std::uint32_t, n>{});
 }
 
-// 1/√m for 32-bit lanes whose even and odd halves are also given by themselves, low in 64 bits:
-// fixed/projection_reciprocal_sqrt.h.
+// A seed in 32-bit arithmetic, from t in the low 16 bits with nothing above. What is above the 16th bit of a
+// sum counts for nothing until the last one.
+template <typename L>
+LKS_FORCE_INLINE typename L::Register seed_by_words(typename L::Register segment, typename L::Register t) {
+    using R = typename L::Register;
+    const R half = L::set_32(1 << 14);
+    const R at = L::coefficient_index(segment);
+    const R c3_t = L::multiply_16(t, L::coefficient(fixed::projection_coefficients.c3, at));
+    const R quadratic = L::add_32(L::template shift_right_32_signed<15>(L::add_32(c3_t, half)),
+                                  L::coefficient(fixed::projection_coefficients.c2, at));
+    const R slope =
+        L::add_32(L::template shift_right_32_signed<15>(L::add_32(L::multiply_16(t, quadratic), half)),
+                  L::coefficient(fixed::projection_coefficients.c1, at));
+    return L::add_32(L::template shift_right_32_signed<18>(L::add_32(L::multiply_16(t, slope), half)),
+                     L::coefficient(fixed::projection_coefficients.c0, at));
+}
+
+// Estimates of 1/√m, low in 32-bit lanes: the cubics of fixed/projection_reciprocal_sqrt.h at t, which is in
+// the high 16 bits of high_t.
 template <typename L, std::uint32_t n>
-LKS_FORCE_INLINE auto reciprocal_sqrt_lanes(const Each<typename L::Register, n>& even,
-                                            const Each<typename L::Register, n>& odd,
-                                            const Each<typename L::Register, n>& m) {
+LKS_FORCE_INLINE auto seed_lanes(const Each<typename L::Register, n>& segment,
+                                 const Each<typename L::Register, n>& high_t) {
     using I = std::uint32_t;
-    // Aligned, with the leading bit replaced by the octave.
-    const auto cut = of_each<n>([&](I i) { return L::add_32(L::add_32(m[i], m[i]), L::set_32(INT32_MIN)); });
-    const auto aligned = of_each<n>([&](I i) { return L::select_by_sign_32(cut[i], m[i], m[i]); });
+    const auto t = of_each<n>([&](I i) { return L::template shift_right_32<16>(high_t[i]); });
+    if constexpr (L::has_rounding_multiply_16) {
+        const auto c2_c3 =
+            of_each<n>([&](I i) { return L::lookup(fixed::projection_seeds.c2_c3, segment[i]); });
+        const auto c0_c1 =
+            of_each<n>([&](I i) { return L::lookup(fixed::projection_seeds.c0_c1, segment[i]); });
+        const auto cubic = of_each<n>([&](I i) { return L::rounding_multiply_16(high_t[i], c2_c3[i]); });
+        const auto low_cubic = of_each<n>([&](I i) { return L::template shift_right_32<16>(cubic[i]); });
+        const auto quadratic = of_each<n>([&](I i) { return L::add_16(c2_c3[i], low_cubic[i]); });
+        const auto c1 = of_each<n>([&](I i) { return L::template shift_right_32<16>(c0_c1[i]); });
+        const auto bent = of_each<n>([&](I i) { return L::rounding_multiply_16(t[i], quadratic[i]); });
+        const auto slope = of_each<n>([&](I i) { return L::add_16(c1[i], bent[i]); });
+        const auto rise = of_each<n>([&](I i) { return L::rounding_multiply_16(t[i], slope[i]); });
+        const auto correction =
+            of_each<n>([&](I i) { return L::template shift_right_16_signed<3>(rise[i]); });
+        const auto seed = of_each<n>([&](I i) { return L::add_16(c0_c1[i], correction[i]); });
+        return of_each<n>([&](I i) { return L::bit_and(seed[i], L::set_32(0xffff)); });
+    } else {
+        return of_each<n>([&](I i) { return seed_by_words<L>(segment[i], t[i]); });
+    }
+}
+
+// 1/√m: fixed/projection_reciprocal_sqrt.h.
+template <typename L, std::uint32_t n>
+LKS_FORCE_INLINE auto reciprocal_sqrt_lanes(const Each<Numbers<L>, n>& m) {
+    using I = std::uint32_t;
+    using F = FactorsOf<L>;
+    // Aligned, with the leading bit replaced by the octave: m where its top bit is set, else 2·m − 2^31.
+    const auto above = of_each<n>([&](I i) { return L::exclusive_or(m[i].words, L::set_32(INT32_MIN)); });
+    const auto shorter = of_each<n>([&](I i) { return L::minimum_32(above[i], L::set_32(0)); });
+    const auto aligned = of_each<n>([&](I i) { return L::add_32(m[i].words, shorter[i]); });
     const auto segment = of_each<n>([&](I i) { return L::template shift_right_32<29>(aligned[i]); });
-    const auto c2_c3 = of_each<n>([&](I i) { return L::lookup(fixed::projection_seeds.c2_c3, segment[i]); });
-    const auto c0_c1 = of_each<n>([&](I i) { return L::lookup(fixed::projection_seeds.c0_c1, segment[i]); });
-    // t in the high 16 bits, and something else in the low ones.
     const auto high_t = of_each<n>(
         [&](I i) { return L::exclusive_or(L::template shift_left_32<3>(aligned[i]), L::set_32(INT32_MIN)); });
-    const auto cubic = of_each<n>([&](I i) { return L::rounding_multiply_16(high_t[i], c2_c3[i]); });
-    const auto t = of_each<n>([&](I i) { return L::template shift_right_32<16>(high_t[i]); });
-    const auto low_cubic = of_each<n>([&](I i) { return L::template shift_right_32<16>(cubic[i]); });
-    const auto quadratic = of_each<n>([&](I i) { return L::add_16(c2_c3[i], low_cubic[i]); });
-    const auto c1 = of_each<n>([&](I i) { return L::template shift_right_32<16>(c0_c1[i]); });
-    const auto bent = of_each<n>([&](I i) { return L::rounding_multiply_16(t[i], quadratic[i]); });
-    const auto slope = of_each<n>([&](I i) { return L::add_16(c1[i], bent[i]); });
-    const auto rise = of_each<n>([&](I i) { return L::rounding_multiply_16(t[i], slope[i]); });
-    const auto correction = of_each<n>([&](I i) { return L::template shift_right_16_signed<3>(rise[i]); });
-    const auto seed = of_each<n>([&](I i) { return L::add_16(c0_c1[i], correction[i]); });
-    const auto y0 = of_each<n>([&](I i) { return L::bit_and(seed[i], L::set_32(0xffff)); });
+    const auto y0 = seed_lanes<L, n>(segment, high_t);
     const auto squared = of_each<n>([&](I i) { return L::multiply_low_32(y0[i], y0[i]); });
-    const auto even_product = of_each<n>([&](I i) { return L::multiply_unsigned(even[i], squared[i]); });
-    const auto odd_squared = of_each<n>([&](I i) { return L::template shift_right<32>(squared[i]); });
-    const auto odd_product = of_each<n>([&](I i) { return L::multiply_unsigned(odd[i], odd_squared[i]); });
-    const auto product = of_each<n>([&](I i) { return L::high_halves(even_product[i], odd_product[i]); });
+    const auto products =
+        of_each<n>([&](I i) { return F::multiply_unsigned(m[i].factors, F::of_words(squared[i])); });
+    const auto product = of_each<n>([&](I i) { return F::high_words(products[i]); });
     const auto e = of_each<n>([&](I i) { return L::subtract_32(product[i], L::set_32(1 << 30)); });
     const auto half_e = of_each<n>([&](I i) { return L::template shift_right_32_signed<1>(e[i]); });
     const auto step = of_each<n>([&](I i) { return L::multiply_low_32(y0[i], half_e[i]); });
@@ -279,72 +307,118 @@ LKS_FORCE_INLINE auto reciprocal_sqrt_lanes(const Each<typename L::Register, n>&
     return of_each<n>([&](I i) { return L::subtract_32(wide[i], taken[i]); });
 }
 
-// value · 2^-count with its sign, rounded down after `rounding` was added; |value| < 2^62. Where there is no
-// such shift the value is made positive, and back.
+// Lengths in one octave, of which clz(u) / 2 is k.
 template <typename L>
-class SignedShift {
+class Octave {
     using R = typename L::Register;
 
 public:
-    explicit SignedShift(int count, std::int64_t rounding = 0)
-        : count_(L::make_shift(count)), before_(L::set(rounding + lift)), after_(L::set(lift >> count)) {}
+    explicit Octave(int k)
+        : twice_k_(L::set(2 * in_range(k))), align_(2 * in_range(k)),
+          lowest_(L::set_32(k == in_range(k) ? 1 << (30 - 2 * k) : INT32_MAX)),
+          highest_(L::set_32(
+              k == in_range(k) ? static_cast<std::int32_t>((std::int64_t{1} << (32 - 2 * k)) - 1) : -1)) {}
 
-    LKS_FORCE_INLINE R operator()(R value) const {
-        const R lifted = L::add(value, before_);
-        if constexpr (L::has_signed_shift) {
-            return L::shift_right_signed(lifted, count_);
-        } else {
-            return L::subtract(L::shift_right(lifted, count_), after_);
-        }
+    // The sign bit of those words that are not the high half of such a u. Others are below 2^31.
+    LKS_FORCE_INLINE R leaves(R high_u) const {
+        return L::bit_or(L::subtract_32(high_u, lowest_), L::subtract_32(highest_, high_u));
     }
+    // u·2^2k, high halves.
+    LKS_FORCE_INLINE Numbers<L> align(const Group<L>& u) const { return align_(u); }
+    LKS_FORCE_INLINE R twice_k() const { return twice_k_; }
 
 private:
-    static constexpr std::int64_t lift = L::has_signed_shift ? 0 : std::int64_t{1} << 62;
+    // Beyond these, nothing is in it: u has a bit in its high half, and is below 2^62.
+    static constexpr int in_range(int k) { return k < 1 || k > 15 ? 1 : k; }
 
-    typename L::Shift count_;
-    R before_;
-    R after_;
+    R twice_k_;
+    HighShift<L> align_;
+    R lowest_;
+    R highest_;
 };
 
 // Of a group's squared lengths u.
 template <typename L>
 struct LengthLanes {
     Group<L> twice_k;
-    Group<L> m; // Q2.30, low in each lane
-    Group<L> y; // low in each lane, with something else above it
+    Factors<L> m; // Q2.30
+    Factors<L> y;
 };
 
 // A group between the stages.
 template <typename L>
 struct StagedGroup {
-    bool plain; // a lane leaves the fast range
-    Group<L> d[3];
+    bool plain;     // a lane leaves the fast range
+    bool in_octave; // all lengths are known to be in the octave of the longest rest length
+    Factors<L> d[3];
     Group<L> u;
     Group<L> motion; // u − d·(d at the start of the substep), where there is damping
-    Group<L> f;
+    Factors<L> f;
 };
+
+// Squared lengths, shifted to the left.
+template <typename L, std::uint32_t n>
+struct Aligned {
+    Each<Numbers<L>, n> m; // u·2^2k, high half
+    Each<Group<L>, n> twice_k;
+};
+
+template <typename L, std::uint32_t n, typename Squares>
+LKS_SELDOM Aligned<L, n> align_each(const Squares& u) {
+    using I = std::uint32_t;
+    const auto high = of_each<n>([&](I i) { return L::high_halves(u[i].a, u[i].b); });
+    const auto zeros = of_each<n>([&](I i) { return L::leading_zeros_32(high[i]); });
+    const auto words = of_each<n>([&](I i) { return L::bit_and(zeros[i], L::set_32(~1)); });
+    const auto even = of_each<n>([&](I i) { return L::bit_and(words[i], L::set(UINT32_MAX)); });
+    const auto odd = of_each<n>([&](I i) { return L::template shift_right<32>(words[i]); });
+    const auto a = of_each<n>([&](I i) { return L::shift_left_each(u[i].a, even[i]); });
+    const auto b = of_each<n>([&](I i) { return L::shift_left_each(u[i].b, odd[i]); });
+    return {of_each<n>([&](I i) {
+                return high_numbers<L>({a[i], b[i]});
+            }),
+            of_each<n>([&](I i) {
+                return Group<L>{even[i], odd[i]};
+            })};
+}
+
+// min(L/len, 2) − 1 in Direction format from L/len times 2^(shift - k).
+template <typename L>
+LKS_SELDOM Factors<L> relative_error_each(const Group<L>& product, typename L::Register shift,
+                                          const Group<L>& twice_k) {
+    using R = typename L::Register;
+    const auto limited = [&](R wide, R k2) {
+        const R ratio = L::shift_right_each(wide, L::subtract(shift, L::template shift_right<1>(k2)));
+        const R two = L::set(2 * std::int64_t{direction_one});
+        // Neither exceeds 2^63, so the sign of the difference decides.
+        return L::select_by_sign(ratio, two, L::subtract(two, ratio));
+    };
+    using F = FactorsOf<L>;
+    return F::less(F::low({limited(product.a, twice_k.a), limited(product.b, twice_k.b)}),
+                   F::constant(direction_one));
+}
 
 template <typename L, bool soft, bool damped, bool multiplier>
 class DistanceGroups {
     using R = typename L::Register;
     using G = Group<L>;
+    using F = FactorsOf<L>;
+    using N = Factors<L>;
+    using I = std::uint32_t;
     using Lengths = LengthLanes<L>;
 
 public:
     explicit DistanceGroups(const DistanceTask& task)
-        : task_(task), shift_(L::make_shift(task.parameters.difference_shift)),
-          gain_shift_(task.parameters.gain_shift),
-          rounded_gain_shift_(task.parameters.gain_shift,
-                              std::int64_t{1} << (task.parameters.gain_shift - 1)),
+        : task_(task), narrow_(task.parameters.difference_shift), gain_shift_(task.parameters.gain_shift),
+          rounded_gain_shift_(task.parameters.gain_shift),
           low_gain_shift_(L::make_shift(task.parameters.gain_shift - 31)),
           product_shift_(
               task.parameters.product_shift,
               task.parameters.product_shift > 0 ? std::int64_t{1} << (task.parameters.product_shift - 1) : 0),
-          plain_(task.parameters.product_shift == 0), bias_(bias(task)),
+          plain_(task.parameters.product_shift == 0), octave_(task.parameters.rest_exponent),
           ratio_shift_(L::set(32 + task.parameters.rest_exponent)),
           gain_rounding_(L::set(std::int64_t{1} << (task.parameters.gain_shift - 1))),
-          error_share_(L::set(task.parameters.error_share)),
-          damping_share_(L::set(task.parameters.damping_share)),
+          error_share_(F::constant(task.parameters.error_share)),
+          damping_share_(F::constant(task.parameters.damping_share)),
           length_shift_(L::set(30 - task.parameters.difference_shift)), axes_{task.arrays.x, task.arrays.y,
                                                                               task.arrays.z},
           starts_{task.arrays.start_x, task.arrays.start_y, task.arrays.start_z} {}
@@ -353,59 +427,104 @@ public:
     LKS_FORCE_INLINE void find_differences(const Access& at, StagedGroup<L>& group) const {
         R beyond = L::set(0);
         for (int axis = 0; axis < 3; ++axis) {
-            const G now = lifted_difference(at, axes_[axis], beyond);
+            const N now = lifted_difference(at, axes_[axis], beyond);
+            group.d[axis] = Narrowing<L>::unlifted(now);
             if constexpr (damped) {
-                const G start = lifted_difference(at, starts_[axis], beyond);
-                add_product(group.motion, axis, unlifted(now),
-                            {L::subtract(now.a, start.a), L::subtract(now.b, start.b)});
+                const N start = lifted_difference(at, starts_[axis], beyond);
+                add_product(group.motion, axis, group.d[axis], F::difference(now, start));
             }
-            group.d[axis] = unlifted(now);
             add_product(group.u, axis, group.d[axis], group.d[axis]);
         }
-        const R high_u = L::high_halves(group.u.a, group.u.b);
+        const R high_u = F::high_words(group.u);
         R outside = L::equal_32(high_u, L::set_32(0));
+        R unusual = octave_.leaves(high_u);
         if constexpr (damped) {
-            outside = L::bit_or(outside, exceeds(L::high_halves(group.motion.a, group.motion.b), high_u));
+            const R much = exceeds(F::high_words(group.motion), high_u);
+            outside = L::bit_or(outside, much);
+            unusual = L::bit_or(unusual, much);
         }
         if constexpr (!Access::whole) {
-            const G mask = at.masked({L::set(-1), L::set(-1)});
-            outside = L::bit_and(outside, L::high_halves(mask.a, mask.b));
+            const R mask = F::high_words(at.masked({L::set(-1), L::set(-1)}));
+            outside = L::bit_and(outside, mask);
+            unusual = L::bit_and(unusual, mask);
         }
-        group.plain = L::any(L::bit_or(outside, L::bit_and(beyond, L::set(~std::int64_t{INT32_MAX}))));
+        if constexpr (L::has_shift_each) {
+            group.in_octave = false;
+            group.plain = narrow_.leaves(beyond, outside);
+        } else {
+            group.in_octave = !narrow_.leaves(beyond, unusual);
+            group.plain = false;
+            if (!group.in_octave) [[unlikely]] {
+                group.plain = narrow_.leaves(beyond, outside);
+            }
+        }
     }
 
     // Of n groups at once.
     template <std::uint32_t n, typename Access>
     LKS_FORCE_INLINE void find_corrections(const Access* at, StagedGroup<L>* groups) const {
-        const auto lengths = measure<n>(groups);
-        for (std::uint32_t i = 0; i < n; ++i) {
-            groups[i].f = relative_error(lengths[i], at[i].load(task_.rest_mantissas));
-            find_correction(at[i], groups[i], lengths[i]);
+        bool in_octave = !L::has_shift_each;
+        if constexpr (!L::has_shift_each) {
+            for (I i = 0; i < n; ++i) {
+                in_octave = in_octave && groups[i].in_octave;
+            }
+        }
+        const Aligned<L, n> aligned = align<n>(groups, in_octave);
+        const auto words = reciprocal_sqrt_lanes<L, n>(aligned.m);
+        for (I i = 0; i < n; ++i) {
+            const Lengths lengths{aligned.twice_k[i], aligned.m[i].factors, F::of_words(words[i])};
+            const G ratio = F::multiply_unsigned(at[i].load(task_.rest_mantissas), lengths.y);
+            if (in_octave) [[likely]] {
+                // It is in the upper half, and not limited: below 2.
+                groups[i].f = F::of_words(L::subtract_32(F::high_words(ratio), L::set_32(direction_one)));
+            } else {
+                groups[i].f = relative_error_each<L>(ratio, ratio_shift_, lengths.twice_k);
+            }
+            find_correction(at[i], groups[i], lengths);
         }
     }
 
     template <bool alike_throughout, typename Access>
     LKS_FORCE_INLINE void move(const Access& at, const StagedGroup<L>& group) const {
-        const G share_a = at.load(task_.shares_a);
+        const N share_a = at.load(task_.shares_a);
         if constexpr (alike_throughout) {
             move_alike(at, group.d, group.f, share_a);
             return;
         }
-        const G share_b = at.load(task_.shares_b);
-        const G alike{L::equal(share_a.a, share_b.a), L::equal(share_a.b, share_b.b)};
-        if (L::all(L::bit_and(alike.a, alike.b))) {
+        const N share_b = at.load(task_.shares_b);
+        if (F::all_equal(share_a, share_b)) {
             move_alike(at, group.d, group.f, share_a);
         } else {
-            move_by_share(at, group.d, group.f, share_a, share_b, alike);
+            move_by_share(at, group.d, group.f, share_a, share_b);
         }
     }
 
 private:
+    struct Squares {
+        const StagedGroup<L>* groups;
+        LKS_FORCE_INLINE const G& operator[](I i) const { return groups[i].u; }
+    };
+
+    template <std::uint32_t n>
+    LKS_FORCE_INLINE Aligned<L, n> align(const StagedGroup<L>* groups, bool in_octave) const {
+        if constexpr (L::has_shift_each) {
+            return align_each<L, n>(Squares{groups});
+        } else {
+            const auto u = of_each<n>([&](I i) { return groups[i].u; });
+            if (in_octave) [[likely]] {
+                return {of_each<n>([&](I i) { return octave_.align(u[i]); }), of_each<n>([&](I) {
+                            return G{octave_.twice_k(), octave_.twice_k()};
+                        })};
+            }
+            return align_each<L, n>(u);
+        }
+    }
+
     template <typename Access>
     LKS_FORCE_INLINE void find_correction(const Access& at, StagedGroup<L>& group,
                                           const Lengths& lengths) const {
         if constexpr (soft && (damped || multiplier)) {
-            group.plain = !soften(at, group, lengths, group.f) || group.plain;
+            group.plain = !soften(at, group, lengths) || group.plain;
         }
         if constexpr (multiplier) {
             at.clear_done(group.f);
@@ -415,37 +534,19 @@ private:
         }
     }
 
-    // Half a unit to round, and what makes 2^30 units positive.
-    static R bias(const DistanceTask& task) {
-        return L::set((std::int64_t{1} << (task.parameters.difference_shift - 1)) +
-                      (std::int64_t{1} << (task.parameters.difference_shift + 30)));
-    }
-
     // x_a − x_b in difference units, lifted.
     template <typename Access>
-    LKS_FORCE_INLINE G lifted_difference(const Access& at, const std::int64_t* x, R& beyond) const {
+    LKS_FORCE_INLINE N lifted_difference(const Access& at, const std::int64_t* x, R& beyond) const {
         const G a = at.load_a(x);
         const G b = at.load_b(x);
         G wide{L::subtract(a.a, b.a), L::subtract(a.b, b.b)};
         if constexpr (!Access::whole) {
             wide = at.masked(wide);
         }
-        return lifted(wide, beyond);
+        return narrow_(wide, beyond);
     }
 
-    // In difference units, within ±2^30, and 2^30 more; else bits above the 31st of `beyond` are set.
-    LKS_FORCE_INLINE G lifted(const G& wide, R& beyond) const {
-        const R a = L::shift_right(L::add(wide.a, bias_), shift_);
-        const R b = L::shift_right(L::add(wide.b, bias_), shift_);
-        beyond = L::bit_or(beyond, L::bit_or(a, b));
-        return {a, b};
-    }
-
-    LKS_FORCE_INLINE static G unlifted(const G& values) {
-        return {L::subtract(values.a, L::set(direction_one)), L::subtract(values.b, L::set(direction_one))};
-    }
-
-    // The sign bit of 32-bit lanes in which |motion| might exceed u, from the high halves of both.
+    // The sign bit of words in which |motion| might exceed u, from the high halves of both.
     LKS_FORCE_INLINE static R exceeds(R high_motion, R high_u) {
         const R below = L::add_32(high_u, high_motion);
         const R above = L::subtract_32(L::add_32(high_u, L::set_32(-1)), high_motion);
@@ -453,97 +554,72 @@ private:
     }
 
     // sum = v·w for the first axis, and more by it for the others.
-    LKS_FORCE_INLINE static void add_product(G& sum, int axis, const G& v, const G& w) {
-        const G product{L::multiply_signed(v.a, w.a), L::multiply_signed(v.b, w.b)};
-        sum = axis == 0 ? product : G{L::add(sum.a, product.a), L::add(sum.b, product.b)};
-    }
-
-    template <std::uint32_t n>
-    LKS_FORCE_INLINE static auto measure(const StagedGroup<L>* groups) {
-        using I = std::uint32_t;
-        const auto high = of_each<n>([&](I i) { return L::high_halves(groups[i].u.a, groups[i].u.b); });
-        const auto zeros = of_each<n>([&](I i) { return L::leading_zeros_32(high[i]); });
-        const auto twice_k = of_each<n>([&](I i) { return L::bit_and(zeros[i], L::set_32(~1)); });
-        const auto even_2k = of_each<n>([&](I i) { return L::bit_and(twice_k[i], L::set(UINT32_MAX)); });
-        const auto odd_2k = of_each<n>([&](I i) { return L::template shift_right<32>(twice_k[i]); });
-        const auto a = of_each<n>([&](I i) { return L::shift_left_each(groups[i].u.a, even_2k[i]); });
-        const auto b = of_each<n>([&](I i) { return L::shift_left_each(groups[i].u.b, odd_2k[i]); });
-        const auto even_m = of_each<n>([&](I i) { return L::template shift_right<32>(a[i]); });
-        const auto odd_m = of_each<n>([&](I i) { return L::template shift_right<32>(b[i]); });
-        const auto m = of_each<n>([&](I i) { return L::high_halves(a[i], b[i]); });
-        const auto y = reciprocal_sqrt_lanes<L, n>(even_m, odd_m, m);
-        return of_each<n>([&](I i) {
-            return Lengths{
-                {even_2k[i], odd_2k[i]}, {even_m[i], odd_m[i]}, {y[i], L::template shift_right<32>(y[i])}};
-        });
-    }
-
-    // g = min(L/len, 2) − 1 in Direction format, as 64-bit numbers.
-    LKS_FORCE_INLINE G relative_error(const Lengths& lengths, const G& rest) const {
-        return {ratio_less_one(L::multiply_unsigned(rest.a, lengths.y.a), lengths.twice_k.a),
-                ratio_less_one(L::multiply_unsigned(rest.b, lengths.y.b), lengths.twice_k.b)};
-    }
-
-    LKS_FORCE_INLINE R ratio_less_one(R product, R twice_k) const {
-        const R ratio =
-            L::shift_right_each(product, L::subtract(ratio_shift_, L::template shift_right<1>(twice_k)));
-        const R two = L::set(2 * std::int64_t{direction_one});
-        // Neither exceeds 2^63, so the sign of the difference decides.
-        const R limited = L::select_by_sign(ratio, two, L::subtract(two, ratio));
-        return L::subtract(limited, L::set(direction_one));
+    LKS_FORCE_INLINE static void add_product(G& sum, int axis, const N& v, const N& w) {
+        const G product = F::multiply_signed(v, w);
+        // By halves: whole, compilers would copy it through memory.
+        sum.a = axis == 0 ? product.a : L::add(sum.a, product.a);
+        sum.b = axis == 0 ? product.b : L::add(sum.b, product.b);
     }
 
     // f from g. False: a lane leaves the fast range.
     template <typename Access>
-    LKS_FORCE_INLINE bool soften(const Access& at, const StagedGroup<L>& group, const Lengths& lengths,
-                                 G& f) const {
+    LKS_FORCE_INLINE bool soften(const Access& at, StagedGroup<L>& group, const Lengths& lengths) const {
+        const bool relaxed = multiplier && task_.relaxations != nullptr;
         if constexpr (damped) {
-            const G shift{L::subtract(lengths.twice_k.a, L::set(2)),
-                          L::subtract(lengths.twice_k.b, L::set(2))};
-            f = {damp(f.a, L::shift_left_each(group.motion.a, shift.a), lengths.y.a),
-                 damp(f.b, L::shift_left_each(group.motion.b, shift.b), lengths.y.b)};
-        }
-        if constexpr (multiplier) {
-            if (task_.relaxations != nullptr) {
-                return relax_by_multiplier(at, lengths, f);
+            const G f = damp(group, lengths);
+            if (relaxed) {
+                return relax_by_multiplier(at, lengths, f, group.f);
             }
+            group.f = F::low(f);
+        } else if (relaxed) {
+            const G f = F::multiply_signed(group.f, F::splat(F::constant(1)));
+            return relax_by_multiplier(at, lengths, f, group.f);
         }
         return true;
     }
 
     template <typename Access>
-    LKS_FORCE_INLINE bool relax_by_multiplier(const Access& at, const Lengths& lengths, G& f) const {
+    LKS_FORCE_INLINE bool relax_by_multiplier(const Access& at, const Lengths& lengths, const G& f,
+                                              N& relaxed) const {
         R beyond = L::set(0);
-        const G length = unlifted(lifted(at.load_wide(task_.arrays.multipliers), beyond));
-        const G relaxation = at.load(task_.relaxations);
-        f = {relax(f.a, length.a, relaxation.a, lengths.y.a, lengths.twice_k.a),
-             relax(f.b, length.b, relaxation.b, lengths.y.b, lengths.twice_k.b)};
+        const N length = Narrowing<L>::unlifted(narrow_(at.load_wide(task_.arrays.multipliers), beyond));
+        const G share = rounded_unit_shift_(F::multiply_signed(at.load(task_.relaxations), length));
+        const G product = F::multiply_signed(F::low(share), lengths.y);
+        const R a = L::subtract(f.a, over_length(product.a, LengthShift(lengths.twice_k.a)));
+        const R b = L::subtract(f.b, over_length(product.b, LengthShift(lengths.twice_k.b)));
+        relaxed = F::low({a, b});
         // |f| ≤ 1, but for the upper end itself.
-        beyond = L::bit_or(beyond,
-                           L::bit_or(L::add(f.a, L::set(direction_one)), L::add(f.b, L::set(direction_one))));
-        return !L::any(L::bit_and(beyond, L::set(~std::int64_t{INT32_MAX})));
+        const R above = L::bit_or(L::add(a, L::set(direction_one)), L::add(b, L::set(direction_one)));
+        return !narrow_.leaves(beyond, L::set_32(0)) &&
+               !L::any(L::bit_and(above, L::set(~std::int64_t{INT32_MAX})));
     }
 
-    // c·g − γ'·motion/u; `aligned` is motion·2^(2k − 2). Only the low half counts where there are no
-    // multipliers: f is within ±1.
-    LKS_FORCE_INLINE R damp(R g, R aligned, R y) const {
-        const R high = L::template shift_right<32>(L::add(aligned, L::set(std::int64_t{1} << 31)));
-        const R reciprocal = L::template shift_right<32>(L::multiply_unsigned(y, y));
-        const R motion = L::template shift_right<28>(
-            L::add(L::multiply_signed(high, reciprocal), L::set(std::int64_t{1} << 27)));
-        const R f =
-            L::subtract(L::multiply_signed(error_share_, g), L::multiply_signed(damping_share_, motion));
+    // c·g − γ'·motion/u. Only the low halves count where there are no multipliers: f is within ±1.
+    LKS_FORCE_INLINE G damp(const StagedGroup<L>& group, const Lengths& lengths) const {
+        const auto align = [](R motion, R twice_k) {
+            return L::add(L::shift_left_each(motion, L::subtract(twice_k, L::set(2))),
+                          L::set(std::int64_t{1} << 31));
+        };
+        const N high =
+            F::high({align(group.motion.a, lengths.twice_k.a), align(group.motion.b, lengths.twice_k.b)});
+        const N reciprocal = F::high(F::multiply_unsigned(lengths.y, lengths.y));
+        const auto rounded = [](R product) {
+            return L::template shift_right<28>(L::add(product, L::set(std::int64_t{1} << 27)));
+        };
+        const G product = F::multiply_signed(high, reciprocal);
+        const N motion = F::low({rounded(product.a), rounded(product.b)});
+        const G error = F::multiply_signed(F::splat(error_share_), group.f);
+        const G damping = F::multiply_signed(F::splat(damping_share_), motion);
+        const G f{L::subtract(error.a, damping.a), L::subtract(error.b, damping.b)};
         if constexpr (multiplier) {
             return rounded_unit_shift_(f);
         } else {
-            return L::template shift_right<unit_fraction_bits>(
-                L::add(f, L::set(std::int64_t{1} << (unit_fraction_bits - 1))));
+            const auto low = [](R sum) {
+                return L::template shift_right<unit_fraction_bits>(
+                    L::add(sum, L::set(std::int64_t{1} << (unit_fraction_bits - 1))));
+            };
+            return {low(f.a), low(f.b)};
         }
-    }
-
-    LKS_FORCE_INLINE R relax(R f, R length, R relaxation, R y, R twice_k) const {
-        const R relaxed = rounded_unit_shift_(L::multiply_signed(relaxation, length));
-        return L::subtract(f, over_length(relaxed, y, LengthShift(twice_k)));
     }
 
     // By 32 − k to the right, and half of what is lost.
@@ -554,26 +630,31 @@ private:
         R right, half;
     };
 
-    // Of values whose low halves count; the shift with its sign, by lanes.
-    LKS_FORCE_INLINE static R over_length(R value, R y, const LengthShift& by) {
+    // Of products with y; the shift with its sign, by lanes.
+    LKS_FORCE_INLINE static R over_length(R product, const LengthShift& by) {
         const R lift = L::set(std::int64_t{1} << 62);
-        const R lifted = L::add(L::multiply_signed(value, y), L::add(lift, by.half));
+        const R lifted = L::add(product, L::add(lift, by.half));
         return L::subtract(L::shift_right_each(lifted, by.right), L::shift_right_each(lift, by.right));
     }
 
     // Λ += f·len.
     template <typename Access>
-    LKS_FORCE_INLINE void add_to_multipliers(const Access& at, const Lengths& lengths, const G& f) const {
+    LKS_FORCE_INLINE void add_to_multipliers(const Access& at, const Lengths& lengths, const N& f) const {
+        const G root = F::multiply_unsigned(lengths.m, lengths.y);
+        const G product = F::multiply_signed(f, F::low({root_of(root.a), root_of(root.b)}));
         const G lambda = at.load_wide(task_.arrays.multipliers);
-        at.store_wide(task_.arrays.multipliers,
-                      {L::add(lambda.a, length_of(f.a, lengths.m.a, lengths.y.a, lengths.twice_k.a)),
-                       L::add(lambda.b, length_of(f.b, lengths.m.b, lengths.y.b, lengths.twice_k.b))});
+        at.store_wide(task_.arrays.multipliers, {L::add(lambda.a, length_of(product.a, lengths.twice_k.a)),
+                                                 L::add(lambda.b, length_of(product.b, lengths.twice_k.b))});
     }
 
-    LKS_FORCE_INLINE R length_of(R f, R m, R y, R twice_k) const {
-        const R rounded = L::template shift_right<31>(L::multiply_unsigned(m, y));
-        const R root = L::select_by_sign_32(rounded, L::set(INT32_MAX), rounded);
-        const R product = L::multiply_signed(f, root);
+    // √m from m times 1/√m, at most one.
+    LKS_FORCE_INLINE static R root_of(R product) {
+        const R rounded = L::template shift_right<31>(product);
+        return L::select_by_sign_32(rounded, L::set(INT32_MAX), rounded);
+    }
+
+    // From f·√m.
+    LKS_FORCE_INLINE R length_of(R product, R twice_k) const {
         const R right = L::add(length_shift_, L::template shift_right<1>(twice_k));
         const R lift = L::set(std::int64_t{1} << 62);
         return L::subtract(L::shift_right_each(L::add(L::add(product, product), lift), right),
@@ -581,17 +662,15 @@ private:
     }
 
     template <typename Access>
-    LKS_FORCE_INLINE void move_alike(const Access& at, const G* d, const G& f, const G& share) const {
-        const G gain{rounded_gain_shift_(L::multiply_signed(share.a, f.a)),
-                     rounded_gain_shift_(L::multiply_signed(share.b, f.b))};
+    LKS_FORCE_INLINE void move_alike(const Access& at, const N* d, const N& f, const N& share) const {
+        const N gain = rounded_gain_shift_.factors(F::multiply_signed(share, f));
         for (int axis = 0; axis < 3; ++axis) {
-            const R correction_a = to_coordinate(L::multiply_signed(d[axis].a, gain.a));
-            const R correction_b = to_coordinate(L::multiply_signed(d[axis].b, gain.b));
-            at.move(axes_[axis], {correction_a, correction_b}, {correction_a, correction_b});
+            const G correction = to_coordinate(F::multiply_signed(d[axis], gain));
+            at.move(axes_[axis], correction, correction);
         }
     }
 
-    LKS_FORCE_INLINE R to_coordinate(R product) const {
+    LKS_FORCE_INLINE G to_coordinate(const G& product) const {
         if constexpr (soft) {
             return plain_ ? product : product_shift_(product);
         } else {
@@ -600,44 +679,47 @@ private:
     }
 
     struct LongGain {
-        R high, low;
+        N high, low;
     };
 
     // Where the shares are equal: the rounded gain, and no bits behind it.
-    LKS_FORCE_INLINE LongGain long_gain(R share, R f, R alike) const {
-        const R product = L::add(L::multiply_signed(share, f), L::bit_and(gain_rounding_, alike));
-        const R low = L::bit_and(L::shift_right(product, low_gain_shift_), L::set(INT32_MAX));
-        return {gain_shift_(product), L::and_not(alike, low)};
+    LKS_FORCE_INLINE LongGain long_gain(const N& share, const N& f, const G& alike) const {
+        G product = F::multiply_signed(share, f);
+        product = {L::add(product.a, L::bit_and(gain_rounding_, alike.a)),
+                   L::add(product.b, L::bit_and(gain_rounding_, alike.b))};
+        const auto low = [this](R value, R none) {
+            return L::and_not(none, L::bit_and(L::shift_right(value, low_gain_shift_), L::set(INT32_MAX)));
+        };
+        return {gain_shift_.factors(product), F::low({low(product.a, alike.a), low(product.b, alike.b)})};
     }
 
-    LKS_FORCE_INLINE R long_product(R difference, const LongGain& gain) const {
-        return to_coordinate(L::add(L::multiply_signed(difference, gain.high),
-                                    low_product_shift_(L::multiply_signed(difference, gain.low))));
+    LKS_FORCE_INLINE G long_product(const N& difference, const LongGain& gain) const {
+        const G high = F::multiply_signed(difference, gain.high);
+        const G low = low_product_shift_(F::multiply_signed(difference, gain.low));
+        return to_coordinate({L::add(high.a, low.a), L::add(high.b, low.b)});
     }
 
     template <typename Access>
-    LKS_FORCE_INLINE void move_by_share(const Access& at, const G* d, const G& f, const G& share_a,
-                                        const G& share_b, const G& alike) const {
-        const LongGain a_a = long_gain(share_a.a, f.a, alike.a);
-        const LongGain a_b = long_gain(share_a.b, f.b, alike.b);
-        const LongGain b_a = long_gain(share_b.a, f.a, alike.a);
-        const LongGain b_b = long_gain(share_b.b, f.b, alike.b);
+    LKS_FORCE_INLINE void move_by_share(const Access& at, const N* d, const N& f, const N& share_a,
+                                        const N& share_b) const {
+        const G alike = F::equal(share_a, share_b);
+        const LongGain gain_a = long_gain(share_a, f, alike);
+        const LongGain gain_b = long_gain(share_b, f, alike);
         for (int axis = 0; axis < 3; ++axis) {
-            at.move(axes_[axis], {long_product(d[axis].a, a_a), long_product(d[axis].b, a_b)},
-                    {long_product(d[axis].a, b_a), long_product(d[axis].b, b_b)});
+            at.move(axes_[axis], long_product(d[axis], gain_a), long_product(d[axis], gain_b));
         }
     }
 
     DistanceTask task_; // a copy, so that what is stored can't be thought to change it
-    typename L::Shift shift_;
+    Narrowing<L> narrow_;
     SignedShift<L> gain_shift_;
-    SignedShift<L> rounded_gain_shift_;
+    GainShift<L> rounded_gain_shift_;
     typename L::Shift low_gain_shift_;
     SignedShift<L> low_product_shift_{31};
     SignedShift<L> rounded_unit_shift_{unit_fraction_bits, std::int64_t{1} << (unit_fraction_bits - 1)};
     SignedShift<L> product_shift_;
     bool plain_;
-    R bias_;
+    Octave<L> octave_;
     R ratio_shift_;
     R gain_rounding_;
     R error_share_;
@@ -656,6 +738,10 @@ public:
 
     template <typename Access>
     LKS_FORCE_INLINE void project(const Access* at, std::uint32_t count) const {
+        if constexpr (Access::together == 1) {
+            project_alone(*at);
+            return;
+        }
         StagedGroup<L> staged[Access::together];
         for (std::uint32_t i = 0; i < count; ++i) {
             groups_.find_differences(at[i], staged[i]);
@@ -667,6 +753,23 @@ public:
             alike = alike && !is_in(unequal_, at[i].first_constraint());
         }
         alike ? move<true>(at, staged, count) : move<false>(at, staged, count);
+    }
+    // By itself, in registers from one stage to the next.
+    template <typename Access>
+    LKS_FORCE_INLINE void project_alone(const Access& at) const {
+        StagedGroup<L> group;
+        groups_.find_differences(at, group);
+        groups_.template find_corrections<1>(&at, &group);
+        at.clear_done(group.f);
+        if (group.plain) {
+            at.for_each([this](std::uint32_t constraint, std::uint32_t a, std::uint32_t b) {
+                project_one(constraint, a, b);
+            });
+        } else if (!is_in(unequal_, at.first_constraint())) {
+            groups_.template move<true>(at, group);
+        } else {
+            groups_.template move<false>(at, group);
+        }
     }
     // What is rare, and would only be in the way of what is not.
     template <typename Access>
@@ -736,14 +839,22 @@ public:
                 if (taken == L::together) {
                     return taken;
                 }
-                const std::uint32_t done = at_ + lanes > in_groups_ ? at_ + lanes - in_groups_ : 0;
-                const std::uint32_t from = at_ - done;
-                groups[taken++] = {run_.constraint + from, run_.a + from, run_.b + from, done};
+                groups[taken++] = group();
             }
             if (next_ == part_.run_count) {
                 return taken;
             }
             begin_run(run_part(part_, next_++));
+        }
+    }
+
+    // All of them, one after the other.
+    LKS_FORCE_INLINE void project_in_turn() {
+        while (next_ != part_.run_count) {
+            begin_run(run_part(part_, next_++));
+            for (; at_ < in_groups_; at_ += lanes) {
+                stages_.project_alone(group());
+            }
         }
     }
 
@@ -755,6 +866,12 @@ public:
 
 private:
     static constexpr std::uint32_t lanes = 2 * L::half;
+
+    LKS_FORCE_INLINE RunAccess<L> group() const {
+        const std::uint32_t done = at_ + lanes > in_groups_ ? at_ + lanes - in_groups_ : 0;
+        const std::uint32_t from = at_ - done;
+        return {run_.constraint + from, run_.a + from, run_.b + from, done};
+    }
 
     void begin_run(const RunPart& run) {
         run_ = run;
@@ -795,13 +912,17 @@ private:
 template <typename L, typename Stage>
 inline void project_runs(const BatchPart& part, const Stage& stages) {
     RunGroups<L, Stage> runs(part, stages);
-    RunAccess<L> groups[L::together];
-    std::uint32_t count;
-    while ((count = runs.take(groups)) == L::together) {
-        stages.project(groups, L::together);
-    }
-    if (count != 0) {
-        stages.project_apart(groups, count);
+    if constexpr (L::together == 1) {
+        runs.project_in_turn();
+    } else {
+        RunAccess<L> groups[L::together];
+        std::uint32_t count;
+        while ((count = runs.take(groups)) == L::together) {
+            stages.project(groups, L::together);
+        }
+        if (count != 0) {
+            stages.project_apart(groups, count);
+        }
     }
     runs.finish();
 }
@@ -845,24 +966,18 @@ inline void project_in_groups(const DistanceTask& task) {
     }
 }
 
-template <typename L, bool multiplier>
-inline void project_family_in_groups(const DistanceTask& task) {
-    if (!task.soft) {
-        project_in_groups<L, false, false, multiplier>(task);
-    } else if (!task.damped) {
-        project_in_groups<L, true, false, multiplier>(task);
-    } else {
-        project_in_groups<L, true, true, multiplier>(task);
-    }
-}
+// One function for each kind of task, called through this table: linkers for WebAssembly would join what is
+// called from one place alone, and engines allocate registers badly in functions of that size.
+template <typename L>
+constexpr void (*project_kinds[])(const DistanceTask&) = {
+    project_in_groups<L, false, false, false>, project_in_groups<L, true, false, false>,
+    project_in_groups<L, true, true, false>,   project_in_groups<L, false, false, true>,
+    project_in_groups<L, true, false, true>,   project_in_groups<L, true, true, true>};
 
 template <typename L>
 inline void project_lanes(const DistanceTask& task) {
-    if (task.arrays.multipliers == nullptr) {
-        project_family_in_groups<L, false>(task);
-    } else {
-        project_family_in_groups<L, true>(task);
-    }
+    const int softness = !task.soft ? 0 : !task.damped ? 1 : 2;
+    project_kinds<L>[softness + (task.arrays.multipliers != nullptr ? 3 : 0)](task);
 }
 
 } // namespace

@@ -10,6 +10,13 @@
 #define LKS_NEVER_INLINE __attribute__((noinline))
 #endif
 
+// Before what few groups need: by itself where code is sent over a network.
+#if defined(__wasm__)
+#define LKS_SELDOM LKS_NEVER_INLINE
+#else
+#define LKS_SELDOM LKS_FORCE_INLINE
+#endif
+
 // Before a function whose loops are short: what compilers make ready for vectors would outweigh them.
 #if defined(__GNUC__) && !defined(__clang__)
 #define LKS_SHORT_LOOPS __attribute__((noinline, optimize("no-tree-vectorize")))

@@ -9,11 +9,12 @@
 #include "kernels/lanes_wasm.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/tether_lanes.h"
+#include "kernels/twice_lanes.h"
 
 namespace lks {
 
 const Kernels kernels_wasm{LKS_SIMD_WASM,
-                           project_lanes<LanesWasm>,
+                           project_lanes<TwiceLanes<LanesWasm>>,
                            predict_lanes<LanesWasm>,
                            near_box_lanes<LanesWasm>,
                            near_plane_lanes<LanesWasm>,

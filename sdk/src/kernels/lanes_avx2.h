@@ -20,6 +20,10 @@ struct LanesAvx2 {
     using Register = __m256i;
     using Shift = __m128i;
     static constexpr bool has_signed_shift = false;
+    static constexpr bool has_shift_each = true;
+    static constexpr bool has_quick_shift = true;
+    static constexpr bool has_rounding_multiply_16 = true;
+    static constexpr bool packs_factors = false;
 
     static Register load(const std::int64_t* p) {
         return _mm256_loadu_si256(reinterpret_cast<const Register*>(p));
@@ -39,6 +43,7 @@ struct LanesAvx2 {
     static Register add(Register a, Register b) { return _mm256_add_epi64(a, b); }
     static Register subtract(Register a, Register b) { return _mm256_sub_epi64(a, b); }
     static Register shift_right(Register v, Shift count) { return _mm256_srl_epi64(v, count); }
+    static Register shift_left(Register v, Shift count) { return _mm256_sll_epi64(v, count); }
     template <int count>
     static Register shift_right(Register v) {
         return _mm256_srli_epi64(v, count);
@@ -68,6 +73,7 @@ struct LanesAvx2 {
     static Register subtract_32(Register a, Register b) { return _mm256_sub_epi32(a, b); }
     static Register equal_32(Register a, Register b) { return _mm256_cmpeq_epi32(a, b); }
     static Register greater_32(Register a, Register b) { return _mm256_cmpgt_epi32(a, b); }
+    static Register minimum_32(Register a, Register b) { return _mm256_min_epi32(a, b); }
     static Register multiply_low_32(Register a, Register b) { return _mm256_mullo_epi32(a, b); }
     template <int count>
     static Register shift_left_32(Register v) {

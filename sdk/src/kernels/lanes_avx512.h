@@ -20,6 +20,10 @@ struct LanesAvx512 {
     using Register = __m512i;
     using Shift = __m128i;
     static constexpr bool has_signed_shift = true;
+    static constexpr bool has_shift_each = true;
+    static constexpr bool has_quick_shift = true;
+    static constexpr bool has_rounding_multiply_16 = true;
+    static constexpr bool packs_factors = false;
 
     static Register load(const std::int64_t* p) { return _mm512_loadu_si512(p); }
     static void store(std::int64_t* p, Register v) { _mm512_storeu_si512(p, v); }
@@ -39,6 +43,7 @@ struct LanesAvx512 {
     static Register subtract(Register a, Register b) { return _mm512_sub_epi64(a, b); }
     static Register shift_right(Register v, Shift count) { return _mm512_srl_epi64(v, count); }
     static Register shift_right_signed(Register v, Shift count) { return _mm512_sra_epi64(v, count); }
+    static Register shift_left(Register v, Shift count) { return _mm512_sll_epi64(v, count); }
     template <int count>
     static Register shift_right(Register v) {
         return _mm512_srli_epi64(v, count);
@@ -71,6 +76,7 @@ struct LanesAvx512 {
     static Register greater_32(Register a, Register b) {
         return _mm512_movm_epi32(_mm512_cmpgt_epi32_mask(a, b));
     }
+    static Register minimum_32(Register a, Register b) { return _mm512_min_epi32(a, b); }
     static Register multiply_low_32(Register a, Register b) { return _mm512_mullo_epi32(a, b); }
     template <int count>
     static Register shift_left_32(Register v) {

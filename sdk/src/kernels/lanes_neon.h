@@ -20,9 +20,14 @@ struct LanesNeon {
     using Register = uint64x2_t;
     using Shift = int64x2_t; // to the left: negative
     static constexpr bool has_signed_shift = true;
+    static constexpr bool has_shift_each = true;
+    static constexpr bool has_rounding_multiply_16 = true;
+    static constexpr bool has_quick_shift = true;
+    static constexpr bool packs_factors = true;
 
     static Register load(const std::int64_t* p) { return vreinterpretq_u64_s64(vld1q_s64(p)); }
     static void store(std::int64_t* p, Register v) { vst1q_s64(p, vreinterpretq_s64_u64(v)); }
+    static Register load_32(const std::uint32_t* p) { return vreinterpretq_u64_u32(vld1q_u32(p)); }
     static Register load_widened(const std::uint32_t* p) { return vmovl_u32(vld1_u32(p)); }
     // Every other index of `at`.
     static Register gather(const std::int64_t* p, const std::uint32_t* at) {
@@ -36,6 +41,7 @@ struct LanesNeon {
     static Register add(Register a, Register b) { return vaddq_u64(a, b); }
     static Register subtract(Register a, Register b) { return vsubq_u64(a, b); }
     static Register shift_right(Register v, Shift count) { return vshlq_u64(v, count); }
+    static Register shift_left(Register v, Shift count) { return vshlq_u64(v, vnegq_s64(count)); }
     static Register shift_right_signed(Register v, Shift count) {
         return vreinterpretq_u64_s64(vshlq_s64(vreinterpretq_s64_u64(v), count));
     }
@@ -67,6 +73,26 @@ struct LanesNeon {
     static Register multiply_unsigned(Register a, Register b) {
         return vmull_u32(vmovn_u64(a), vmovn_u64(b));
     }
+    // Of one half of 32-bit lanes.
+    static Register multiply_low_half_signed(Register a, Register b) {
+        return vreinterpretq_u64_s64(vmull_s32(vget_low_s32(to_32(a)), vget_low_s32(to_32(b))));
+    }
+    static Register multiply_high_half_signed(Register a, Register b) {
+        return vreinterpretq_u64_s64(vmull_high_s32(to_32(a), to_32(b)));
+    }
+    static Register multiply_low_half_unsigned(Register a, Register b) {
+        return vmull_u32(vget_low_u32(vreinterpretq_u32_u64(a)), vget_low_u32(vreinterpretq_u32_u64(b)));
+    }
+    static Register multiply_high_half_unsigned(Register a, Register b) {
+        return vmull_high_u32(vreinterpretq_u32_u64(a), vreinterpretq_u32_u64(b));
+    }
+    // Halves of a's 64-bit lanes low in 32-bit lanes, b's high.
+    static Register pack_low_halves(Register a, Register b) {
+        return vreinterpretq_u64_u32(vuzp1q_u32(vreinterpretq_u32_u64(a), vreinterpretq_u32_u64(b)));
+    }
+    static Register pack_high_halves(Register a, Register b) {
+        return vreinterpretq_u64_u32(vuzp2q_u32(vreinterpretq_u32_u64(a), vreinterpretq_u32_u64(b)));
+    }
     // Even 32-bit lanes from a's high halves, odd ones from b's.
     static Register high_halves(Register a, Register b) {
         return vreinterpretq_u64_u32(vtrn2q_u32(vreinterpretq_u32_u64(a), vreinterpretq_u32_u64(b)));
@@ -80,6 +106,7 @@ struct LanesNeon {
     static Register greater_32(Register a, Register b) {
         return vreinterpretq_u64_u32(vcgtq_s32(to_32(a), to_32(b)));
     }
+    static Register minimum_32(Register a, Register b) { return from_32(vminq_s32(to_32(a), to_32(b))); }
     static Register multiply_low_32(Register a, Register b) { return from_32(vmulq_s32(to_32(a), to_32(b))); }
     template <int count>
     static Register shift_left_32(Register v) {

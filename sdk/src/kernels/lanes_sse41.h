@@ -20,6 +20,10 @@ struct LanesSse41 {
     using Register = __m128i;
     using Shift = __m128i;
     static constexpr bool has_signed_shift = false;
+    static constexpr bool has_shift_each = false;
+    static constexpr bool has_quick_shift = true;
+    static constexpr bool has_rounding_multiply_16 = true;
+    static constexpr bool packs_factors = false;
 
     static Register load(const std::int64_t* p) {
         return _mm_loadu_si128(reinterpret_cast<const Register*>(p));
@@ -39,15 +43,16 @@ struct LanesSse41 {
     static Register add(Register a, Register b) { return _mm_add_epi64(a, b); }
     static Register subtract(Register a, Register b) { return _mm_sub_epi64(a, b); }
     static Register shift_right(Register v, Shift count) { return _mm_srl_epi64(v, count); }
+    static Register shift_left(Register v, Shift count) { return _mm_sll_epi64(v, count); }
     template <int count>
     static Register shift_right(Register v) {
         return _mm_srli_epi64(v, count);
     }
-    // Both lanes by either count, and from each the lane that it was meant for.
     template <int count>
     static Register shift_left(Register v) {
         return _mm_slli_epi64(v, count);
     }
+    // Both lanes by either count, and from each the lane that it was meant for.
     static Register shift_right_each(Register v, Register counts) {
         return _mm_blend_epi16(_mm_srl_epi64(v, counts), _mm_srl_epi64(v, upper(counts)), 0xf0);
     }
@@ -73,6 +78,7 @@ struct LanesSse41 {
     static Register subtract_32(Register a, Register b) { return _mm_sub_epi32(a, b); }
     static Register equal_32(Register a, Register b) { return _mm_cmpeq_epi32(a, b); }
     static Register greater_32(Register a, Register b) { return _mm_cmpgt_epi32(a, b); }
+    static Register minimum_32(Register a, Register b) { return _mm_min_epi32(a, b); }
     static Register multiply_low_32(Register a, Register b) { return _mm_mullo_epi32(a, b); }
     template <int count>
     static Register shift_left_32(Register v) {
