@@ -1,0 +1,214 @@
+// Where a group of constraints finds the coordinates of its ends and its coefficients, and leaves what it
+// changes: a stretch of a run, some of one, or constraints with ends anywhere.
+#pragma once
+
+#include "kernels/distance_task.h"
+#include "kernels/factors.h"
+#include "kernels/force_inline.h"
+#include "solver/wrapping.h"
+
+namespace lks {
+namespace {
+
+template <typename L>
+struct LaneValues {
+    LKS_FORCE_INLINE explicit LaneValues(const Group<L>& group) {
+        L::store(values, group.a);
+        L::store(values + L::half, group.b);
+    }
+    std::int64_t values[2 * L::half];
+};
+
+// All bits in the first lanes that are loaded from widest_group on, and none before and behind.
+constexpr std::int64_t lane_bits[3 * widest_group] = {0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,
+                                                      0,  0,  0,  0,  0,  -1, -1, -1, -1, -1, -1,
+                                                      -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+
+// A stretch in which both ends advance by one.
+template <typename L>
+struct RunAccess {
+    static constexpr std::uint32_t together = L::together;
+    static constexpr bool whole = true;
+
+    std::uint32_t constraint;
+    std::uint32_t a;
+    std::uint32_t b;
+    // So many at its beginning have been in a group before, and stay as they are.
+    std::uint32_t done;
+
+    std::uint32_t first_constraint() const { return constraint; }
+
+    template <typename Use>
+    void for_each(const Use& use) const {
+        for (std::uint32_t lane = done; lane < 2 * L::half; ++lane) {
+            use(constraint + lane, a + lane, b + lane);
+        }
+    }
+    // Nothing for them.
+    LKS_FORCE_INLINE void clear_done(Factors<L>& values) const {
+        if (done != 0) {
+            const std::int64_t* bits = lane_bits + widest_group - done;
+            values = FactorsOf<L>::masked(values, {L::load(bits), L::load(bits + L::half)});
+        }
+    }
+
+    LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
+        return {L::load(x + a), L::load(x + a + L::half)};
+    }
+    LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
+        return {L::load(x + b), L::load(x + b + L::half)};
+    }
+    // x_a += plus_a, x_b −= minus_b.
+    LKS_FORCE_INLINE void move(std::int64_t* x, const Group<L>& plus_a, const Group<L>& minus_b) const {
+        std::int64_t* x_a = as_it_stands(x + a);
+        std::int64_t* x_b = as_it_stands(x + b);
+        const Group<L> at_a{L::load(x_a), L::load(x_a + L::half)};
+        const Group<L> at_b{L::load(x_b), L::load(x_b + L::half)};
+        L::store(x_a, L::add(at_a.a, plus_a.a));
+        L::store(x_a + L::half, L::add(at_a.b, plus_a.b));
+        L::store(x_b, L::subtract(at_b.a, minus_b.a));
+        L::store(x_b + L::half, L::subtract(at_b.b, minus_b.b));
+    }
+    LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
+        return {L::load(values + constraint), L::load(values + constraint + L::half)};
+    }
+    LKS_FORCE_INLINE void store_wide(std::int64_t* values, const Group<L>& group) const {
+        L::store(values + constraint, group.a);
+        L::store(values + constraint + L::half, group.b);
+    }
+    LKS_FORCE_INLINE Factors<L> load(const std::uint32_t* values) const {
+        return FactorsOf<L>::load(values + constraint);
+    }
+};
+
+// The first `count` lanes of a stretch; the others are not part of it, and do not move.
+template <typename L>
+struct PartialAccess {
+    static constexpr std::uint32_t together = L::together;
+    static constexpr bool whole = false;
+
+    RunAccess<L> run;
+    std::uint32_t count;
+    // Whether the particles of the other lanes may be read, and written as they are.
+    bool loads_whole;
+    bool stores_whole;
+
+    std::uint32_t first_constraint() const { return run.constraint; }
+    LKS_FORCE_INLINE Group<L> masked(const Group<L>& values) const {
+        const std::int64_t* bits = lane_bits + 2 * widest_group - count;
+        return {L::bit_and(values.a, L::load(bits)), L::bit_and(values.b, L::load(bits + L::half))};
+    }
+    LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
+        return loads_whole ? run.load_a(x) : load_lanes(x + run.a);
+    }
+    LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
+        return loads_whole ? run.load_b(x) : load_lanes(x + run.b);
+    }
+    LKS_FORCE_INLINE void move(std::int64_t* x, const Group<L>& plus_a, const Group<L>& minus_b) const {
+        if (stores_whole) {
+            run.move(x, plus_a, minus_b);
+            return;
+        }
+        const LaneValues<L> a(plus_a);
+        const LaneValues<L> b(minus_b);
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
+            x[run.a + lane] = wrapping_add(x[run.a + lane], a.values[lane]);
+            x[run.b + lane] = wrapping_subtract(x[run.b + lane], b.values[lane]);
+        }
+    }
+    LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
+        return load_lanes(values + run.constraint);
+    }
+    LKS_FORCE_INLINE void store_wide(std::int64_t* values, const Group<L>& group) const {
+        store_lanes(values + run.constraint, group);
+    }
+    LKS_FORCE_INLINE Factors<L> load(const std::uint32_t* values) const { return run.load(values); }
+    // Those have no difference.
+    static void clear_done(const Factors<L>&) {}
+
+    template <typename Use>
+    void for_each(const Use& use) const {
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
+            use(run.constraint + lane, run.a + lane, run.b + lane);
+        }
+    }
+
+private:
+    Group<L> load_lanes(const std::int64_t* x) const {
+        std::int64_t values[2 * L::half] = {};
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
+            values[lane] = x[lane];
+        }
+        return {L::load(values), L::load(values + L::half)};
+    }
+    void store_lanes(std::int64_t* x, const Group<L>& group) const {
+        const LaneValues<L> lanes(group);
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
+            x[lane] = lanes.values[lane];
+        }
+    }
+};
+
+// Constraints that follow each other in the batch, with ends anywhere; lanes from `count` on repeat the first
+// one and are not stored.
+template <typename L>
+struct SinglesAccess {
+    static constexpr std::uint32_t lanes = 2 * L::half;
+    static constexpr std::uint32_t together = L::singles_together;
+    static constexpr bool whole = true;
+
+    std::uint32_t constraint;
+    std::uint32_t count;
+    Constraint ends[lanes];
+
+    std::uint32_t first_constraint() const { return constraint; }
+
+    void take(const Constraint* constraints, std::uint32_t first, std::uint32_t number) {
+        constraint = first;
+        count = number;
+        for (std::uint32_t i = 0; i < lanes; ++i) {
+            ends[i] = constraints[first + (i < number ? i : 0)];
+        }
+    }
+    template <typename Use>
+    void for_each(const Use& use) const {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            use(constraint + i, ends[i].a, ends[i].b);
+        }
+    }
+    static void clear_done(const Factors<L>&) {}
+
+    LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
+        return {L::gather(x, &ends[0].a), L::gather(x, &ends[L::half].a)};
+    }
+    LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
+        return {L::gather(x, &ends[0].b), L::gather(x, &ends[L::half].b)};
+    }
+    LKS_FORCE_INLINE void move(std::int64_t* x, const Group<L>& plus_a, const Group<L>& minus_b) const {
+        const LaneValues<L> a(plus_a);
+        const LaneValues<L> b(minus_b);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            x[ends[i].a] = wrapping_add(x[ends[i].a], a.values[i]);
+            x[ends[i].b] = wrapping_subtract(x[ends[i].b], b.values[i]);
+        }
+    }
+    LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
+        std::int64_t parts[lanes] = {};
+        for (std::uint32_t i = 0; i < count; ++i) {
+            parts[i] = values[constraint + i];
+        }
+        return {L::load(parts), L::load(parts + L::half)};
+    }
+    LKS_FORCE_INLINE void store_wide(std::int64_t* values, const Group<L>& group) const {
+        const LaneValues<L> parts(group);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            values[constraint + i] = parts.values[i];
+        }
+    }
+    LKS_FORCE_INLINE Factors<L> load(const std::uint32_t* values) const {
+        return FactorsOf<L>::load(values + constraint);
+    }
+};
+
+} // namespace
+} // namespace lks

@@ -1,0 +1,355 @@
+// The steps of a group of constraints: kernels/distance_scalar.h over lanes.
+#pragma once
+
+#include "kernels/distance_access.h"
+#include "kernels/distance_scalar.h"
+#include "kernels/length_lanes.h"
+
+namespace lks {
+namespace {
+
+// A group between the stages.
+template <typename L>
+struct StagedGroup {
+    bool plain;     // a lane leaves the fast range
+    bool in_octave; // all lengths are known to be in the octave of the longest rest length
+    Factors<L> d[3];
+    Group<L> u;
+    Group<L> motion; // u − d·(d at the start of the substep), where there is damping
+    Factors<L> f;
+};
+
+template <typename L, bool soft, bool damped, bool multiplier>
+class DistanceGroups {
+    using R = typename L::Register;
+    using G = Group<L>;
+    using F = FactorsOf<L>;
+    using N = Factors<L>;
+    using I = std::uint32_t;
+    using Lengths = LengthLanes<L>;
+
+public:
+    explicit DistanceGroups(const DistanceTask& task)
+        : task_(task), narrow_(task.parameters.difference_shift), gain_shift_(task.parameters.gain_shift),
+          rounded_gain_shift_(task.parameters.gain_shift),
+          low_gain_shift_(L::make_shift(task.parameters.gain_shift - 31)),
+          product_shift_(
+              task.parameters.product_shift,
+              task.parameters.product_shift > 0 ? std::int64_t{1} << (task.parameters.product_shift - 1) : 0),
+          plain_(task.parameters.product_shift == 0), octave_(task.parameters.rest_exponent),
+          ratio_shift_(L::set(32 + task.parameters.rest_exponent)),
+          gain_rounding_(L::set(std::int64_t{1} << (task.parameters.gain_shift - 1))),
+          error_share_(F::constant(task.parameters.error_share)),
+          damping_share_(F::constant(task.parameters.damping_share)),
+          length_shift_(L::set(30 - task.parameters.difference_shift)), axes_{task.arrays.x, task.arrays.y,
+                                                                              task.arrays.z},
+          starts_{task.arrays.start_x, task.arrays.start_y, task.arrays.start_z} {}
+
+    template <typename Access>
+    LKS_FORCE_INLINE void find_differences(const Access& at, StagedGroup<L>& group) const {
+        R beyond = L::set(0);
+        for (int axis = 0; axis < 3; ++axis) {
+            const N now = lifted_difference(at, axes_[axis], beyond);
+            group.d[axis] = Narrowing<L>::unlifted(now);
+            if constexpr (damped) {
+                const N start = lifted_difference(at, starts_[axis], beyond);
+                add_product(group.motion, axis, group.d[axis], F::difference(now, start));
+            }
+            add_product(group.u, axis, group.d[axis], group.d[axis]);
+        }
+        const R high_u = F::high_words(group.u);
+        R outside = L::equal_32(high_u, L::set_32(0));
+        R unusual = octave_.leaves(high_u);
+        if constexpr (damped) {
+            const R much = exceeds(F::high_words(group.motion), high_u);
+            outside = L::bit_or(outside, much);
+            unusual = L::bit_or(unusual, much);
+        }
+        if constexpr (!Access::whole) {
+            const R mask = F::high_words(at.masked({L::set(-1), L::set(-1)}));
+            outside = L::bit_and(outside, mask);
+            unusual = L::bit_and(unusual, mask);
+        }
+        if constexpr (L::has_shift_each) {
+            group.in_octave = false;
+            group.plain = narrow_.leaves(beyond, outside);
+        } else {
+            group.in_octave = !narrow_.leaves(beyond, unusual);
+            group.plain = false;
+            if (!group.in_octave) [[unlikely]] {
+                group.plain = narrow_.leaves(beyond, outside);
+            }
+        }
+    }
+
+    // Of n groups at once.
+    template <std::uint32_t n, typename Access>
+    LKS_FORCE_INLINE void find_corrections(const Access* at, StagedGroup<L>* groups) const {
+        bool in_octave = !L::has_shift_each;
+        if constexpr (!L::has_shift_each) {
+            for (I i = 0; i < n; ++i) {
+                in_octave = in_octave && groups[i].in_octave;
+            }
+        }
+        const Aligned<L, n> aligned = align<n>(groups, in_octave);
+        const auto words = reciprocal_sqrt_lanes<L, n>(aligned.m);
+        for (I i = 0; i < n; ++i) {
+            const Lengths lengths{aligned.twice_k[i], aligned.m[i].factors, F::of_words(words[i])};
+            const G ratio = F::multiply_unsigned(at[i].load(task_.rest_mantissas), lengths.y);
+            if (in_octave) [[likely]] {
+                // It is in the upper half, and not limited: below 2.
+                groups[i].f = F::of_words(L::subtract_32(F::high_words(ratio), L::set_32(direction_one)));
+            } else {
+                groups[i].f = relative_error_each<L>(ratio, ratio_shift_, lengths.twice_k);
+            }
+            find_correction(at[i], groups[i], lengths);
+        }
+    }
+
+    template <bool alike_throughout, typename Access>
+    LKS_FORCE_INLINE void move(const Access& at, const StagedGroup<L>& group) const {
+        const N share_a = at.load(task_.shares_a);
+        if constexpr (alike_throughout) {
+            move_alike(at, group.d, group.f, share_a);
+            return;
+        }
+        const N share_b = at.load(task_.shares_b);
+        if (F::all_equal(share_a, share_b)) {
+            move_alike(at, group.d, group.f, share_a);
+        } else {
+            move_by_share(at, group.d, group.f, share_a, share_b);
+        }
+    }
+
+private:
+    struct Squares {
+        const StagedGroup<L>* groups;
+        LKS_FORCE_INLINE const G& operator[](I i) const { return groups[i].u; }
+    };
+
+    template <std::uint32_t n>
+    LKS_FORCE_INLINE Aligned<L, n> align(const StagedGroup<L>* groups, bool in_octave) const {
+        if constexpr (L::has_shift_each) {
+            return align_each<L, n>(Squares{groups});
+        } else {
+            const auto u = of_each<n>([&](I i) { return groups[i].u; });
+            if (in_octave) [[likely]] {
+                return {of_each<n>([&](I i) { return octave_.align(u[i]); }), of_each<n>([&](I) {
+                            return G{octave_.twice_k(), octave_.twice_k()};
+                        })};
+            }
+            return align_each<L, n>(u);
+        }
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE void find_correction(const Access& at, StagedGroup<L>& group,
+                                          const Lengths& lengths) const {
+        if constexpr (soft && (damped || multiplier)) {
+            group.plain = !soften(at, group, lengths) || group.plain;
+        }
+        if constexpr (multiplier) {
+            at.clear_done(group.f);
+            if (!group.plain) {
+                add_to_multipliers(at, lengths, group.f);
+            }
+        }
+    }
+
+    // x_a − x_b in difference units, lifted.
+    template <typename Access>
+    LKS_FORCE_INLINE N lifted_difference(const Access& at, const std::int64_t* x, R& beyond) const {
+        const G a = at.load_a(x);
+        const G b = at.load_b(x);
+        G wide{L::subtract(a.a, b.a), L::subtract(a.b, b.b)};
+        if constexpr (!Access::whole) {
+            wide = at.masked(wide);
+        }
+        return narrow_(wide, beyond);
+    }
+
+    // The sign bit of words in which |motion| might exceed u, from the high halves of both.
+    LKS_FORCE_INLINE static R exceeds(R high_motion, R high_u) {
+        const R below = L::add_32(high_u, high_motion);
+        const R above = L::subtract_32(L::add_32(high_u, L::set_32(-1)), high_motion);
+        return L::bit_and(L::bit_or(below, above), L::set_32(INT32_MIN));
+    }
+
+    // sum = v·w for the first axis, and more by it for the others.
+    LKS_FORCE_INLINE static void add_product(G& sum, int axis, const N& v, const N& w) {
+        const G product = F::multiply_signed(v, w);
+        // By halves: whole, compilers would copy it through memory.
+        sum.a = axis == 0 ? product.a : L::add(sum.a, product.a);
+        sum.b = axis == 0 ? product.b : L::add(sum.b, product.b);
+    }
+
+    // f from g. False: a lane leaves the fast range.
+    template <typename Access>
+    LKS_FORCE_INLINE bool soften(const Access& at, StagedGroup<L>& group, const Lengths& lengths) const {
+        const bool relaxed = multiplier && task_.relaxations != nullptr;
+        if constexpr (damped) {
+            const G f = damp(group, lengths);
+            if (relaxed) {
+                return relax_by_multiplier(at, lengths, f, group.f);
+            }
+            group.f = F::low(f);
+        } else if (relaxed) {
+            const G f = F::multiply_signed(group.f, F::splat(F::constant(1)));
+            return relax_by_multiplier(at, lengths, f, group.f);
+        }
+        return true;
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE bool relax_by_multiplier(const Access& at, const Lengths& lengths, const G& f,
+                                              N& relaxed) const {
+        R beyond = L::set(0);
+        const N length = Narrowing<L>::unlifted(narrow_(at.load_wide(task_.arrays.multipliers), beyond));
+        const G share = rounded_unit_shift_(F::multiply_signed(at.load(task_.relaxations), length));
+        const G product = F::multiply_signed(F::low(share), lengths.y);
+        const R a = L::subtract(f.a, over_length(product.a, LengthShift(lengths.twice_k.a)));
+        const R b = L::subtract(f.b, over_length(product.b, LengthShift(lengths.twice_k.b)));
+        relaxed = F::low({a, b});
+        // |f| ≤ 1, but for the upper end itself.
+        const R above = L::bit_or(L::add(a, L::set(direction_one)), L::add(b, L::set(direction_one)));
+        return !narrow_.leaves(beyond, L::set_32(0)) &&
+               !L::any(L::bit_and(above, L::set(~std::int64_t{INT32_MAX})));
+    }
+
+    // c·g − γ'·motion/u. Only the low halves count where there are no multipliers: f is within ±1.
+    LKS_FORCE_INLINE G damp(const StagedGroup<L>& group, const Lengths& lengths) const {
+        const auto align = [](R motion, R twice_k) {
+            return L::add(L::shift_left_each(motion, L::subtract(twice_k, L::set(2))),
+                          L::set(std::int64_t{1} << 31));
+        };
+        const N high =
+            F::high({align(group.motion.a, lengths.twice_k.a), align(group.motion.b, lengths.twice_k.b)});
+        const N reciprocal = F::high(F::multiply_unsigned(lengths.y, lengths.y));
+        const auto rounded = [](R product) {
+            return L::template shift_right<28>(L::add(product, L::set(std::int64_t{1} << 27)));
+        };
+        const G product = F::multiply_signed(high, reciprocal);
+        const N motion = F::low({rounded(product.a), rounded(product.b)});
+        const G error = F::multiply_signed(F::splat(error_share_), group.f);
+        const G damping = F::multiply_signed(F::splat(damping_share_), motion);
+        const G f{L::subtract(error.a, damping.a), L::subtract(error.b, damping.b)};
+        if constexpr (multiplier) {
+            return rounded_unit_shift_(f);
+        } else {
+            const auto low = [](R sum) {
+                return L::template shift_right<unit_fraction_bits>(
+                    L::add(sum, L::set(std::int64_t{1} << (unit_fraction_bits - 1))));
+            };
+            return {low(f.a), low(f.b)};
+        }
+    }
+
+    // By 32 − k to the right, and half of what is lost.
+    struct LengthShift {
+        explicit LengthShift(R twice_k)
+            : right(L::subtract(L::set(32), L::template shift_right<1>(twice_k))),
+              half(L::shift_left_each(L::set(1), L::subtract(right, L::set(1)))) {}
+        R right, half;
+    };
+
+    // Of products with y; the shift with its sign, by lanes.
+    LKS_FORCE_INLINE static R over_length(R product, const LengthShift& by) {
+        const R lift = L::set(std::int64_t{1} << 62);
+        const R lifted = L::add(product, L::add(lift, by.half));
+        return L::subtract(L::shift_right_each(lifted, by.right), L::shift_right_each(lift, by.right));
+    }
+
+    // Λ += f·len.
+    template <typename Access>
+    LKS_FORCE_INLINE void add_to_multipliers(const Access& at, const Lengths& lengths, const N& f) const {
+        const G root = F::multiply_unsigned(lengths.m, lengths.y);
+        const G product = F::multiply_signed(f, F::low({root_of(root.a), root_of(root.b)}));
+        const G lambda = at.load_wide(task_.arrays.multipliers);
+        at.store_wide(task_.arrays.multipliers, {L::add(lambda.a, length_of(product.a, lengths.twice_k.a)),
+                                                 L::add(lambda.b, length_of(product.b, lengths.twice_k.b))});
+    }
+
+    // √m from m times 1/√m, at most one.
+    LKS_FORCE_INLINE static R root_of(R product) {
+        const R rounded = L::template shift_right<31>(product);
+        return L::select_by_sign_32(rounded, L::set(INT32_MAX), rounded);
+    }
+
+    // From f·√m.
+    LKS_FORCE_INLINE R length_of(R product, R twice_k) const {
+        const R right = L::add(length_shift_, L::template shift_right<1>(twice_k));
+        const R lift = L::set(std::int64_t{1} << 62);
+        return L::subtract(L::shift_right_each(L::add(L::add(product, product), lift), right),
+                           L::shift_right_each(lift, right));
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE void move_alike(const Access& at, const N* d, const N& f, const N& share) const {
+        const N gain = rounded_gain_shift_.factors(F::multiply_signed(share, f));
+        for (int axis = 0; axis < 3; ++axis) {
+            const G correction = to_coordinate(F::multiply_signed(d[axis], gain));
+            at.move(axes_[axis], correction, correction);
+        }
+    }
+
+    LKS_FORCE_INLINE G to_coordinate(const G& product) const {
+        if constexpr (soft) {
+            return plain_ ? product : product_shift_(product);
+        } else {
+            return product;
+        }
+    }
+
+    struct LongGain {
+        N high, low;
+    };
+
+    // Where the shares are equal: the rounded gain, and no bits behind it.
+    LKS_FORCE_INLINE LongGain long_gain(const N& share, const N& f, const G& alike) const {
+        G product = F::multiply_signed(share, f);
+        product = {L::add(product.a, L::bit_and(gain_rounding_, alike.a)),
+                   L::add(product.b, L::bit_and(gain_rounding_, alike.b))};
+        const auto low = [this](R value, R none) {
+            return L::and_not(none, L::bit_and(L::shift_right(value, low_gain_shift_), L::set(INT32_MAX)));
+        };
+        return {gain_shift_.factors(product), F::low({low(product.a, alike.a), low(product.b, alike.b)})};
+    }
+
+    LKS_FORCE_INLINE G long_product(const N& difference, const LongGain& gain) const {
+        const G high = F::multiply_signed(difference, gain.high);
+        const G low = low_product_shift_(F::multiply_signed(difference, gain.low));
+        return to_coordinate({L::add(high.a, low.a), L::add(high.b, low.b)});
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE void move_by_share(const Access& at, const N* d, const N& f, const N& share_a,
+                                        const N& share_b) const {
+        const G alike = F::equal(share_a, share_b);
+        const LongGain gain_a = long_gain(share_a, f, alike);
+        const LongGain gain_b = long_gain(share_b, f, alike);
+        for (int axis = 0; axis < 3; ++axis) {
+            at.move(axes_[axis], long_product(d[axis], gain_a), long_product(d[axis], gain_b));
+        }
+    }
+
+    DistanceTask task_; // a copy, so that what is stored can't be thought to change it
+    Narrowing<L> narrow_;
+    SignedShift<L> gain_shift_;
+    GainShift<L> rounded_gain_shift_;
+    typename L::Shift low_gain_shift_;
+    SignedShift<L> low_product_shift_{31};
+    SignedShift<L> rounded_unit_shift_{unit_fraction_bits, std::int64_t{1} << (unit_fraction_bits - 1)};
+    SignedShift<L> product_shift_;
+    bool plain_;
+    Octave<L> octave_;
+    R ratio_shift_;
+    R gain_rounding_;
+    R error_share_;
+    R damping_share_;
+    R length_shift_;
+    std::int64_t* axes_[3];
+    const std::int64_t* starts_[3];
+};
+
+} // namespace
+} // namespace lks
