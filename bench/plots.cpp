@@ -37,8 +37,8 @@ bool is_ours(const std::string& variant) {
     return variant.rfind("float32", 0) != 0 && variant.rfind("Bullet", 0) != 0;
 }
 
-std::string title_of(const std::string& variant) {
-    return " title '" + (is_ours(variant) ? "ours, " + variant : variant);
+std::string title_of(const std::string& variant, const std::string& more = "") {
+    return " title '" + (is_ours(variant) ? "ours, " + variant : variant) + more + "'";
 }
 
 // Blue is ours, orange float32 with the same care, grey plain float32, green what comes in packages.
@@ -78,7 +78,7 @@ void size_plot(const Results& results, Script& script) {
             }
         }
         curves.push_back(script.data(lines) + " with linespoints pt 7 lw 2 " +
-                         (is_ours(variant) ? "dt 1" : "dt 2") + colour_of(variant) + title_of(variant) + "'");
+                         (is_ours(variant) ? "dt 1" : "dt 2") + colour_of(variant) + title_of(variant));
     }
     script.command("plot " + comma_separated(curves));
 }
@@ -99,8 +99,7 @@ void bar_plot(const Results& results, const std::vector<std::string>& workloads,
             lines +=
                 workload + " " + (cost != nullptr ? std::to_string(cost->value) : std::string("NaN")) + "\n";
         }
-        bars.push_back(script.data(lines) + " using 2:xtic(1)" + colour_of(variant) + title_of(variant) +
-                       "'");
+        bars.push_back(script.data(lines) + " using 2:xtic(1)" + colour_of(variant) + title_of(variant));
     }
     script.command("plot " + comma_separated(bars));
 }
@@ -132,8 +131,8 @@ void error_plot(const Results& results, Script& script) {
                 }
             }
             curves.push_back(script.data(lines) + " with linespoints lw 2" + colour_of(variant) +
-                             (substeps ? " dt 1 pt 7" : " dt 2 pt 6") + title_of(variant) +
-                             (substeps ? ", substeps" : ", iterations") + "'");
+                             (substeps ? " dt 1 pt 7" : " dt 2 pt 6") +
+                             title_of(variant, substeps ? ", substeps" : ", iterations"));
         }
     }
     script.command("plot " + comma_separated(curves));

@@ -17,10 +17,9 @@ Projections::Projections(lks_world* world) : world_(world) {
                                          object.start_axis(1),
                                          object.start_axis(2),
                                          object.multipliers.empty() ? nullptr : object.multipliers.data()};
-        const std::size_t batches = object.asset().batches.size();
-        lks::DistanceWork work{lks::Array<lks::BatchPart>(world->allocator),
-                               lks::Array<lks::DistanceTask>(world->allocator)};
-        if (!work.parts.reserve(batches) || !work.tasks.reserve(batches)) {
+        lks::DistanceWork work;
+        work.set_allocator(world->allocator);
+        if (!work.reserve(object.asset().batches.size())) {
             throw std::bad_alloc();
         }
         prepare_distances(object.asset(), object.coefficients(), arrays, work);

@@ -24,6 +24,12 @@ constexpr std::int64_t lane_bits[3 * widest_group] = {0,  0,  0,  0,  0,  0,  0,
                                                       0,  0,  0,  0,  0,  -1, -1, -1, -1, -1, -1,
                                                       -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
 
+// From `first` of them on.
+template <typename L>
+LKS_FORCE_INLINE Group<L> lane_mask(std::uint32_t first) {
+    return {L::load(lane_bits + first), L::load(lane_bits + first + L::half)};
+}
+
 // A stretch in which both ends advance by one.
 template <typename L>
 struct RunAccess {
@@ -47,8 +53,7 @@ struct RunAccess {
     // Nothing for them.
     LKS_FORCE_INLINE void clear_done(Factors<L>& values) const {
         if (done != 0) {
-            const std::int64_t* bits = lane_bits + widest_group - done;
-            values = FactorsOf<L>::masked(values, {L::load(bits), L::load(bits + L::half)});
+            values = FactorsOf<L>::masked(values, lane_mask<L>(widest_group - done));
         }
     }
 
@@ -95,8 +100,8 @@ struct PartialAccess {
 
     std::uint32_t first_constraint() const { return run.constraint; }
     LKS_FORCE_INLINE Group<L> masked(const Group<L>& values) const {
-        const std::int64_t* bits = lane_bits + 2 * widest_group - count;
-        return {L::bit_and(values.a, L::load(bits)), L::bit_and(values.b, L::load(bits + L::half))};
+        const Group<L> mask = lane_mask<L>(2 * widest_group - count);
+        return {L::bit_and(values.a, mask.a), L::bit_and(values.b, mask.b)};
     }
     LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
         return loads_whole ? run.load_a(x) : load_lanes(x + run.a);

@@ -58,38 +58,29 @@ public:
             add_product(group.u, axis, group.d[axis], group.d[axis]);
         }
         const R high_u = F::high_words(group.u);
-        R outside = L::equal_32(high_u, L::set_32(0));
-        R unusual = octave_.leaves(high_u);
-        if constexpr (damped) {
-            const R much = exceeds(F::high_words(group.motion), high_u);
-            outside = L::bit_or(outside, much);
-            unusual = L::bit_or(unusual, much);
-        }
-        if constexpr (!Access::whole) {
-            const R mask = F::high_words(at.masked({L::set(-1), L::set(-1)}));
-            outside = L::bit_and(outside, mask);
-            unusual = L::bit_and(unusual, mask);
-        }
-        if constexpr (L::has_shift_each) {
-            group.in_octave = false;
-            group.plain = narrow_.leaves(beyond, outside);
-        } else {
-            group.in_octave = !narrow_.leaves(beyond, unusual);
-            group.plain = false;
-            if (!group.in_octave) [[unlikely]] {
-                group.plain = narrow_.leaves(beyond, outside);
+        // Whether a lane is not as these words want it, or its motion is too large.
+        const auto leaves = [&](R words) {
+            if constexpr (damped) {
+                words = L::bit_or(words, exceeds(F::high_words(group.motion), high_u));
             }
+            if constexpr (!Access::whole) {
+                words = L::bit_and(words, F::high_words(at.masked({L::set(-1), L::set(-1)})));
+            }
+            return narrow_.leaves(beyond, words);
+        };
+        group.in_octave = false;
+        if constexpr (!L::has_shift_each) {
+            group.in_octave = !leaves(octave_.leaves(high_u));
         }
+        group.plain = !group.in_octave && leaves(L::equal_32(high_u, L::set_32(0)));
     }
 
     // Of n groups at once.
     template <std::uint32_t n, typename Access>
     LKS_FORCE_INLINE void find_corrections(const Access* at, StagedGroup<L>* groups) const {
         bool in_octave = !L::has_shift_each;
-        if constexpr (!L::has_shift_each) {
-            for (I i = 0; i < n; ++i) {
-                in_octave = in_octave && groups[i].in_octave;
-            }
+        for (I i = 0; i < n; ++i) {
+            in_octave = in_octave && groups[i].in_octave;
         }
         const Aligned<L, n> aligned = align<n>(groups, in_octave);
         const auto words = reciprocal_sqrt_lanes<L, n>(aligned.m);
@@ -341,7 +332,7 @@ private:
     SignedShift<L> rounded_unit_shift_{unit_fraction_bits, std::int64_t{1} << (unit_fraction_bits - 1)};
     SignedShift<L> product_shift_;
     bool plain_;
-    Octave<L> octave_;
+    OctaveOf<L> octave_;
     R ratio_shift_;
     R gain_rounding_;
     R error_share_;

@@ -37,7 +37,7 @@ public:
             at[i].clear_done(staged[i].f);
             alike = alike && !is_in(unequal_, at[i].first_constraint());
         }
-        alike ? move<true>(at, staged, count) : move<false>(at, staged, count);
+        alike ? move_each<true>(at, staged, count) : move_each<false>(at, staged, count);
     }
     // By itself, in registers from one stage to the next.
     template <typename Access>
@@ -46,15 +46,7 @@ public:
         groups_.find_differences(at, group);
         groups_.template find_corrections<1>(&at, &group);
         at.clear_done(group.f);
-        if (group.plain) {
-            at.for_each([this](std::uint32_t constraint, std::uint32_t a, std::uint32_t b) {
-                project_one(constraint, a, b);
-            });
-        } else if (!is_in(unequal_, at.first_constraint())) {
-            groups_.template move<true>(at, group);
-        } else {
-            groups_.template move<false>(at, group);
-        }
+        move<false>(at, group);
     }
     // What is rare, and would only be in the way of what is not.
     template <typename Access>
@@ -90,17 +82,24 @@ private:
     }
 
     template <bool alike, typename Access>
-    LKS_FORCE_INLINE void move(const Access* at, const StagedGroup<L>* staged, std::uint32_t count) const {
+    LKS_FORCE_INLINE void move_each(const Access* at, const StagedGroup<L>* staged,
+                                    std::uint32_t count) const {
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (staged[i].plain) {
-                at[i].for_each([this](std::uint32_t constraint, std::uint32_t a, std::uint32_t b) {
-                    project_one(constraint, a, b);
-                });
-            } else if (alike || !is_in(unequal_, at[i].first_constraint())) {
-                groups_.template move<true>(at[i], staged[i]);
-            } else {
-                groups_.template move<false>(at[i], staged[i]);
-            }
+            move<alike>(at[i], staged[i]);
+        }
+    }
+
+    // `alike`: its shares are known to be equal.
+    template <bool alike, typename Access>
+    LKS_FORCE_INLINE void move(const Access& at, const StagedGroup<L>& group) const {
+        if (group.plain) {
+            at.for_each([this](std::uint32_t constraint, std::uint32_t a, std::uint32_t b) {
+                project_one(constraint, a, b);
+            });
+        } else if (alike || !is_in(unequal_, at.first_constraint())) {
+            groups_.template move<true>(at, group);
+        } else {
+            groups_.template move<false>(at, group);
         }
     }
 

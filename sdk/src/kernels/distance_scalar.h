@@ -20,7 +20,8 @@ inline std::int64_t shift_right_rounded(std::int64_t value, int shift) {
     return wrapping_add(value, std::int64_t{1} << (shift - 1)) >> shift;
 }
 
-// The same without the sum, which the longest differences have no room for.
+// The same without the sum, which the longest differences have no room for. Everywhere it would take 3 % more
+// time.
 inline std::int64_t shift_right_rounded_any(std::int64_t value, int shift) {
     return (value >> shift) + ((value >> (shift - 1)) & 1);
 }

@@ -147,10 +147,6 @@ struct LanesWasm {
 
     static Register add_16(Register a, Register b) { return wasm_i16x8_add(a, b); }
     static Register rounding_multiply_16(Register a, Register b) { return wasm_i16x8_q15mulr_sat(a, b); }
-    template <int count>
-    static Register shift_right_16_signed(Register v) {
-        return wasm_i16x8_shr(v, count);
-    }
 
     static Register bit_and(Register a, Register b) { return wasm_v128_and(a, b); }
     static Register bit_or(Register a, Register b) { return wasm_v128_or(a, b); }

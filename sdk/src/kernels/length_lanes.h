@@ -1,6 +1,8 @@
 // Lengths of edges over lanes, and how far they are from their rest lengths.
 #pragma once
 
+#include <type_traits>
+
 #include "fixed/formats.h"
 #include "kernels/factors.h"
 #include "kernels/reciprocal_sqrt_lanes.h"
@@ -38,6 +40,14 @@ private:
     R lowest_;
     R highest_;
 };
+
+// Where lanes shift by counts of their own nobody asks for it.
+struct NoOctave {
+    explicit NoOctave(int) {}
+};
+
+template <typename L>
+using OctaveOf = std::conditional_t<L::has_shift_each, NoOctave, Octave<L>>;
 
 // Of a group's squared lengths u.
 template <typename L>

@@ -47,6 +47,15 @@ bool alike(const DistanceTask& a, const DistanceTask& b) {
 
 } // namespace
 
+void DistanceWork::set_allocator(const lks_allocator& allocator) {
+    parts.set_allocator(allocator);
+    tasks.set_allocator(allocator);
+}
+
+bool DistanceWork::reserve(std::size_t batches) {
+    return parts.reserve(batches) && tasks.reserve(batches);
+}
+
 void prepare_distances(const lks_asset& asset, const Coefficients& coefficients, const DistanceArrays& arrays,
                        DistanceWork& work) {
     work.parts.clear();

@@ -27,12 +27,16 @@ namespace lks {
 
 // What kernels have to know for one pass over an object's constraints.
 struct DistanceWork {
+    void set_allocator(const lks_allocator& allocator);
+    // Room for an asset of so many batches. False: no memory.
+    [[nodiscard]] bool reserve(std::size_t batches);
+
     Array<BatchPart> parts;    // by batch
     Array<DistanceTask> tasks; // as many batches of one family together as can be, in order
 };
 
-// Made once a tick: what a kernel reads was then stored long ago, and does not hold it up. There must be room
-// for as many of each as the asset has batches.
+// Made once a tick: what a kernel reads was then stored long ago, and does not hold it up. There must be
+// room.
 void prepare_distances(const lks_asset& asset, const Coefficients& coefficients, const DistanceArrays& arrays,
                        DistanceWork& work);
 // Some constraints of a batch.

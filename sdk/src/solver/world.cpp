@@ -20,8 +20,7 @@ lks_world::lks_world(const lks_world_def& def)
       event_log(allocator) {
     for (lks::TickScratch& worker : scratch) {
         worker.candidates.set_allocator(allocator);
-        worker.distances.parts.set_allocator(allocator);
-        worker.distances.tasks.set_allocator(allocator);
+        worker.distances.set_allocator(allocator);
         worker.chain.set_allocator(allocator);
         worker.anchors.set_allocator(allocator);
     }
@@ -108,8 +107,7 @@ const KnownAsset* lks_world::know_asset(const lks_asset& asset) {
         return nullptr;
     }
     for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
-        if (!scratch[worker].distances.parts.reserve(asset.batches.size()) ||
-            !scratch[worker].distances.tasks.reserve(asset.batches.size()) ||
+        if (!scratch[worker].distances.reserve(asset.batches.size()) ||
             !scratch[worker].chain.reserve(asset.chain.empty() ? 0 : asset.chain.size() + 1) ||
             !scratch[worker].anchors.reserve(asset.tethers.anchors.size())) {
             return nullptr;
