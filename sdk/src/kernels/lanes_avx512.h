@@ -11,10 +11,10 @@ namespace {
 struct LanesAvx512 {
     static constexpr std::uint32_t half = 8;
     // Groups of which the lengths are found step by step, side by side.
-    static constexpr std::uint32_t interleaved = 2;
+    static constexpr std::uint32_t interleaved = 3;
     // Groups that go through the stages together.
-    static constexpr std::uint32_t together = 4;
-    static constexpr std::uint32_t singles_together = 8;
+    static constexpr std::uint32_t together = 3;
+    static constexpr std::uint32_t singles_together = 3;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 3;
     using Register = __m512i;
@@ -22,6 +22,7 @@ struct LanesAvx512 {
     static constexpr bool has_signed_shift = true;
     static constexpr bool has_shift_each = true;
     static constexpr bool has_quick_shift = true;
+    static constexpr bool has_minimum_64 = true;
     static constexpr bool has_rounding_multiply_16 = true;
     static constexpr bool packs_factors = false;
 
@@ -55,6 +56,7 @@ struct LanesAvx512 {
     static Register shift_right_each(Register v, Register counts) { return _mm512_srlv_epi64(v, counts); }
     static Register shift_left_each(Register v, Register counts) { return _mm512_sllv_epi64(v, counts); }
     static Register equal(Register a, Register b) { return _mm512_movm_epi64(_mm512_cmpeq_epi64_mask(a, b)); }
+    static Register minimum_64(Register a, Register b) { return _mm512_min_epu64(a, b); }
     // b where the 64-bit lane of `sign` is negative.
     static Register select_by_sign(Register a, Register b, Register sign) {
         return _mm512_mask_blend_epi64(_mm512_movepi64_mask(sign), a, b);

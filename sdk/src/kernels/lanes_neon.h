@@ -21,6 +21,7 @@ struct LanesNeon {
     using Shift = int64x2_t; // to the left: negative
     static constexpr bool has_signed_shift = true;
     static constexpr bool has_shift_each = true;
+    static constexpr bool has_minimum_64 = false;
     static constexpr bool has_rounding_multiply_16 = true;
     static constexpr bool has_quick_shift = true;
     static constexpr bool packs_factors = true;

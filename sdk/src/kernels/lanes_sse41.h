@@ -22,6 +22,7 @@ struct LanesSse41 {
     static constexpr bool has_signed_shift = false;
     static constexpr bool has_shift_each = false;
     static constexpr bool has_quick_shift = true;
+    static constexpr bool has_minimum_64 = false;
     static constexpr bool has_rounding_multiply_16 = true;
     static constexpr bool packs_factors = false;
 

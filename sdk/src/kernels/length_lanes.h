@@ -90,8 +90,12 @@ LKS_SELDOM Factors<L> relative_error_each(const Group<L>& product, typename L::R
     const auto limited = [&](R wide, R k2) {
         const R ratio = L::shift_right_each(wide, L::subtract(shift, L::template shift_right<1>(k2)));
         const R two = L::set(2 * std::int64_t{direction_one});
-        // Neither exceeds 2^63, so the sign of the difference decides.
-        return L::select_by_sign(ratio, two, L::subtract(two, ratio));
+        if constexpr (L::has_minimum_64) {
+            return L::minimum_64(ratio, two);
+        } else {
+            // Neither exceeds 2^63, so the sign of the difference decides.
+            return L::select_by_sign(ratio, two, L::subtract(two, ratio));
+        }
     };
     using F = FactorsOf<L>;
     return F::less(F::low({limited(product.a, twice_k.a), limited(product.b, twice_k.b)}),

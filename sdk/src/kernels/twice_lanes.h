@@ -16,6 +16,7 @@ struct TwiceLanes {
     static constexpr std::uint32_t worth_a_group = L::worth_a_group;
     static constexpr bool has_signed_shift = L::has_signed_shift;
     static constexpr bool has_shift_each = L::has_shift_each;
+    static constexpr bool has_minimum_64 = false;
     static constexpr bool has_rounding_multiply_16 = L::has_rounding_multiply_16;
     static constexpr bool has_quick_shift = L::has_quick_shift;
     static constexpr bool packs_factors = true;
