@@ -14,7 +14,7 @@ struct LanesAvx512 {
     static constexpr std::uint32_t interleaved = 3;
     // Groups that go through the stages together.
     static constexpr std::uint32_t together = 3;
-    static constexpr std::uint32_t singles_together = 3;
+    static constexpr std::uint32_t singles_together = 6;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 3;
     using Register = __m512i;
