@@ -120,7 +120,7 @@ private:
     }
 
     void substep() {
-        for_each_contact([](Contact& contact, Body& a, Body& b) { contact.begin(a, b); });
+        for_each_contact([this](Contact& contact, Body& a, Body& b) { contact.begin(a, b, rate_); });
         for_each_joint([](Joint& joint, Body& a, Body& b) { joint.begin(a, b); });
         strike_all();
         for (Body& body : bodies_) {
@@ -140,6 +140,7 @@ private:
         for (const bool shared : {false, true}) {
             for_each_contact([&](Contact& contact, Body& a, Body& b) {
                 if (is_shared(contact) == shared) {
+                    contact.stop_parting(a, b, rate_);
                     contact.undo_overlap(a, b, rate_);
                 }
             });

@@ -76,6 +76,7 @@ struct Body : BodyState {
     bool slept;          // at the beginning of the tick
     std::int64_t struck; // asleep: how fast particles would have made it, World m/s
     bool touched;        // by a contact that pushed at the end of the tick
+    bool squeezed;       // deep in something else, at the beginning of the last substep
     bool figure_touched; // the least body of a figure: any of its bodies is
     fixed::Vec3 tick_position;
     Quaternion tick_orientation;

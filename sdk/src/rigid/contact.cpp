@@ -13,6 +13,10 @@ using fixed::Vec3;
 
 // Overlaps up to this stay: half a millimetre.
 constexpr std::int64_t allowed_overlap = (std::int64_t{1} << world_fraction_bits) / 2000;
+// What is deeper than this is undone without speed: a centimetre.
+constexpr std::int64_t deep_overlap = (std::int64_t{1} << world_fraction_bits) / 100;
+// How fast the rest parts at most: 0.4 m/s.
+constexpr std::int64_t greatest_parting = (std::int64_t{2} << world_fraction_bits) / 5;
 
 Vec3 cross(const Vec3& spin, const Vec3& lever) {
     // World · World, spins to 22 bits behind the point and levers to 24; a collider's lever may be very long.
@@ -56,6 +60,26 @@ void undo(Body& body, const Move& move, std::int32_t share) {
         apply(body, move);
         body.orientation = normalise(body.orientation);
     }
+}
+
+// How far surfaces may close in a substep, or, less than nothing, have to part: by thirty times what is to be
+// undone a second, at most a sixteenth of it at once.
+std::int64_t allowed_motion(std::int64_t separation, const MotionRate& rate) {
+    const std::int64_t depth = -separation - allowed_overlap;
+    if (depth <= 0) {
+        return std::max<std::int64_t>(separation, 0);
+    }
+    const std::int64_t n = rate.substeps_per_second;
+    return -std::min({depth / 16, depth * 30 / n, greatest_parting / n});
+}
+
+std::int64_t closing_speed(const Contact& contact, const Levers& levers, const Body& a, const Body& b) {
+    return -fixed::dot(contact.normal(), velocity_at(b, levers.b) - velocity_at(a, levers.a));
+}
+
+std::int64_t closing_speed(const Contact& contact, const ContactPoint& point, const ContactBodies& bodies) {
+    const Levers levers = surfaces_of(contact, cores_now(point, bodies.a, bodies.b));
+    return closing_speed(contact, levers, bodies.a, bodies.b);
 }
 
 // What the points of a contact pushed before, to be handed on.
@@ -135,7 +159,7 @@ void take_manifold(Contact& contact, std::span<const ContactPush> old_pushes, co
     }
 }
 
-void begin_substep(Contact& contact, const Body& a, const Body& b) {
+void begin_substep(Contact& contact, const Body& a, const Body& b, const MotionRate& rate) {
     const Vec3 between = b.position - a.position;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         ContactPoint& point = contact.points[i];
@@ -146,10 +170,8 @@ void begin_substep(Contact& contact, const Body& a, const Body& b) {
         point.start = distance_now(a, point.material_a, b, point.material_b);
         point.core_start = between + cores.b - cores.a;
         point.separation = fixed::dot(contact.normal(), between + levers.b - levers.a);
-        point.approach =
-            contact.restitution == 0
-                ? 0
-                : -fixed::dot(contact.normal(), velocity_at(b, levers.b) - velocity_at(a, levers.a));
+        point.allowed = allowed_motion(point.separation, rate);
+        point.approach = contact.restitution == 0 ? 0 : closing_speed(contact, levers, a, b);
         point.active = false;
     }
 }
@@ -160,8 +182,7 @@ bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach,
     }
     const ContactPoint& point = contact.points[0];
     const Levers levers = surfaces_of(contact, cores_now(point, bodies.a, bodies.b));
-    const std::int64_t approach =
-        -fixed::dot(contact.normal(), velocity_at(bodies.b, levers.b) - velocity_at(bodies.a, levers.a));
+    const std::int64_t approach = closing_speed(contact, levers, bodies.a, bodies.b);
     if (approach <= least_approach || point.separation > approach / rate.substeps_per_second) {
         return false;
     }
@@ -193,13 +214,25 @@ void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t le
         if (!point.active || point.push.normal == 0 || point.approach <= least_approach) {
             continue;
         }
-        const Levers levers = surfaces_of(contact, cores_now(point, bodies.a, bodies.b));
-        const Vec3 apart = velocity_at(bodies.b, levers.b) - velocity_at(bodies.a, levers.a);
         const std::int64_t wanted =
             fixed::multiply_shift(point.approach, contact.restitution, world_fraction_bits);
-        const std::int64_t missing = wanted - fixed::dot(contact.normal(), apart);
+        const std::int64_t missing = wanted + closing_speed(contact, point, bodies);
         if (missing > 0) {
             accelerate(contact, point.rows, divide(missing, point.rows.inverses[normal_row]), bodies);
+        }
+    }
+}
+
+void stop_parting(const Contact& contact, ContactBodies bodies, const MotionRate& rate) {
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        const ContactPoint& point = contact.points[i];
+        if (!point.active || point.push.normal == 0 || point.allowed >= 0) {
+            continue;
+        }
+        const std::int64_t parting =
+            std::min(-closing_speed(contact, point, bodies), -point.allowed * rate.substeps_per_second);
+        if (parting > 0) {
+            accelerate(contact, point.rows, -divide(parting, point.rows.inverses[normal_row]), bodies);
         }
     }
 }
@@ -212,10 +245,10 @@ void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate
     bool any = false;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         const ContactPoint& point = contact.points[i];
-        if (!point.active || point.separation >= -allowed_overlap) {
+        if (!point.active || point.separation >= -deep_overlap) {
             continue;
         }
-        const std::int64_t depth = std::min((-point.separation - allowed_overlap) >> 2, most);
+        const std::int64_t depth = std::min((-point.separation - deep_overlap) / 4, most);
         const std::int64_t p = divide(depth, point.rows.inverses[normal_row]);
         const Vec3 along = fixed::scale(contact.normal(), p);
         const auto add = [&](Move& move, const ContactRowSide& side, std::int32_t share, int sign) {
@@ -229,6 +262,12 @@ void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate
         undo(bodies.a, move_a, contact.shares.a);
         undo(bodies.b, move_b, contact.shares.b);
     }
+}
+
+bool is_deeper(const Contact& contact, std::int64_t depth) {
+    return std::any_of(contact.points, contact.points + contact.count, [depth](const ContactPoint& point) {
+        return point.active && point.separation < -depth;
+    });
 }
 
 } // namespace lks

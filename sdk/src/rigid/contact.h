@@ -4,8 +4,10 @@
 // What is constrained is the motion within one substep, d − d₀ with d = p_b − p_a of two points that are
 // fixed in the bodies: along the normal it must not close what was open (nor deepen what overlapped), and
 // across it friction stops it within Coulomb's cone. Each row starts with the push that the same point
-// needed in the substep before, so a pile that rests is held exactly and stays as it is, to the bit. Old
-// overlaps are undone at the end of the substep by moving bodies without giving them speed.
+// needed in the substep before, so a pile that rests is held exactly and stays as it is, to the bit. What
+// overlaps has to part, by a share of the overlap in a substep: joints and neighbours take part in that as in
+// any motion, and pushes grow until what is squeezed comes free. The speed that it takes is taken out again.
+// What is deeper than a centimetre is undone before that by moving the two bodies without giving them speed.
 #pragma once
 
 #include <span>
@@ -63,6 +65,7 @@ struct ContactPoint {
     fixed::Vec3 start;      // p_b − p_a at its beginning
     fixed::Vec3 core_start; // the same of the cores
     std::int64_t separation;
+    std::int64_t allowed;  // how far the surfaces may close; where they overlap, less than nothing
     std::int64_t approach; // World m/s: how fast the surfaces closed
     bool active;
     ContactRows rows;
@@ -81,7 +84,7 @@ struct Contact {
     std::uint32_t dynamic_friction;
     std::int64_t restitution;       // World
     std::int64_t given_speed;       // World m/s: what it gave along its normals in this tick, added up
-    bool fast;                      // its points are looked for in every substep
+    bool every_substep;             // its points are looked for in each, not once a tick
     fixed::Direction directions[3]; // the normal, from a to b, and two across it
     // Of the substep: a push along the normal at the middle of all active points, where they are several.
     ContactRows middle;
@@ -98,7 +101,7 @@ struct Contact {
 // What the search found of it.
 struct FoundContact {
     ContactKey key;
-    bool fast;
+    bool every_substep;
     std::int64_t radius_a;
     std::int64_t radius_b;
     Manifold manifold;
@@ -116,15 +119,15 @@ struct ContactMoves {
 };
 
 // How many points a contact needs room for.
-constexpr std::uint32_t point_room(bool fast, const Manifold& manifold) {
-    return fast ? greatest_point_count : manifold.count;
+constexpr std::uint32_t point_room(bool every_substep, const Manifold& manifold) {
+    return every_substep ? greatest_point_count : manifold.count;
 }
 // Fills the points from a new manifold. Each takes over the old push of the same feature, or else of the
 // nearest place that is left: where edges lie upon edges, features come and go.
 void take_manifold(Contact& contact, std::span<const ContactPush> old_pushes, const Manifold& manifold,
                    const Body& a, const Body& b);
 // Before the bodies are predicted.
-void begin_substep(Contact& contact, const Body& a, const Body& b);
+void begin_substep(Contact& contact, const Body& a, const Body& b, const MotionRate& rate);
 // An impact of two single points that give back speed, before the bodies are predicted: the impulse that
 // reverses their approach. True where there was one. Impacts of several points at once are left to
 // restore_speed: a box would take them one after the other and spin.
@@ -143,8 +146,12 @@ void project(Contact& contact, ContactMoves moves, bool back);
 void add_up_pushes(Contact& contact, const MotionRate& rate);
 // Once velocities are known.
 void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t least_approach);
-// Last: old overlaps.
+// Then: what overlaps has parted in this substep, and needs no speed to do so in the next one.
+void stop_parting(const Contact& contact, ContactBodies bodies, const MotionRate& rate);
+// Last: deep overlaps, by moving bodies without giving them speed.
 void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate& rate);
+// Whether any of its points overlaps by more than this.
+bool is_deeper(const Contact& contact, std::int64_t depth);
 
 // The geometric mean of two coefficients, 18 fraction bits.
 std::uint32_t combined_friction(std::int64_t a, std::int64_t b);

@@ -1,8 +1,6 @@
 // Where the two sides of a contact's points are.
 #pragma once
 
-#include <algorithm>
-
 #include "rigid/contact.h"
 
 namespace lks {
@@ -29,12 +27,12 @@ inline Levers surfaces_of(const Contact& contact, const Levers& cores) {
             cores.b - fixed::scale(contact.normal(), contact.radius_b)};
 }
 
-// How much the surfaces have parted along the normal in this substep, less what was open at its beginning.
-// Round surfaces part as their cores do, however they turn.
+// How much the surfaces have parted along the normal in this substep, beyond what they may close or have to
+// part. Round surfaces part as their cores do, however they turn.
 inline std::int64_t gap_of(const Contact& contact, const ContactPoint& point, const Levers& cores,
                            const ContactBodies& bodies) {
     const fixed::Vec3 motion = (bodies.b.position - bodies.a.position) + cores.b - cores.a - point.core_start;
-    return fixed::dot(contact.normal(), motion) + std::max<std::int64_t>(point.separation, 0);
+    return fixed::dot(contact.normal(), motion) + point.allowed;
 }
 
 // Rows at these levers along the first `count` directions.

@@ -343,15 +343,24 @@ private:
         return {collider.static_friction, collider.dynamic_friction, 0};
     }
 
+    // By more than five millimetres: whatever of it is pushed, something else of it goes in.
+    static bool is_squeezed(const Manifold& manifold) {
+        constexpr std::int64_t deep = (std::int64_t{1} << world_fraction_bits) / 200;
+        return std::any_of(manifold.points, manifold.points + manifold.count,
+                           [](const ManifoldPoint& point) { return point.separation < -deep; });
+    }
+
     bool touches(const Piece& a, const Piece& b, std::int64_t motion, FoundContact& found) const {
-        // One look a tick is enough where neither passes the other's middle in it.
-        found.fast = motion > fixed::saturating_add(thickness(a), thickness(b));
+        // One look a tick is enough where neither passes the other's middle in it, and where what is inside
+        // the other does not turn out of it.
+        const bool fast = motion > fixed::saturating_add(thickness(a), thickness(b));
         found.radius_a = a.radius;
         found.radius_b = b.radius;
         collide(a, b, motion + near_distance, found.manifold);
         // Boxes beside each other show no points, and may yet meet at their edges.
-        const bool unclear = found.fast && found.manifold.count == 0;
+        const bool unclear = fast && found.manifold.count == 0;
         drop_what_stays_apart(found.manifold, found.key, motion);
+        found.every_substep = fast || is_squeezed(found.manifold);
         return found.manifold.count != 0 || unclear;
     }
 
@@ -381,10 +390,11 @@ private:
         contact.static_friction = combined_friction(own.static_friction, other.static_friction);
         contact.dynamic_friction = combined_friction(own.dynamic_friction, other.dynamic_friction);
         contact.restitution = std::max(own.restitution, other.restitution);
-        contact.fast = found.fast;
+        contact.every_substep = found.every_substep;
         const std::size_t first_point = scene_.contact_points.size();
         // Within its room.
-        static_cast<void>(scene_.contact_points.resize(first_point + point_room(found.fast, found.manifold)));
+        static_cast<void>(
+            scene_.contact_points.resize(first_point + point_room(found.every_substep, found.manifold)));
         contact.points = scene_.contact_points.begin() + first_point;
         std::span<const ContactPush> old_pushes;
         if (known) {

@@ -10,7 +10,7 @@ void place_collider_bodies(lks_world& world);
 // Fills the scene's contacts, in ascending order of keys, with what is near enough to touch in this tick.
 // Sleeping bodies that something touches are woken, with their islands. `team`: null, or who helps.
 void find_contacts(lks_world& world, Team* team);
-// For contacts whose bodies go too fast for one look a tick: the points at the beginning of a substep.
+// For contacts that need more than one look a tick: the points at the beginning of a substep.
 void find_points_again(const lks_world& world, Contact& contact);
 
 // The body that a contact's or a pair's second number names.

@@ -25,6 +25,14 @@ struct ContactMemory {
     ContactPush pushes[greatest_point_count];
 };
 
+// How long the bodies of an island have rested.
+struct IslandRest {
+    std::uint32_t least; // ticks
+    std::uint32_t count; // of bodies
+    std::uint64_t sum;   // of their ticks
+    bool squeezed;       // any of them is
+};
+
 // What a load puts into a slot: nothing, what is defined as what is there, or something else.
 enum class Loaded : std::uint8_t { nothing, same, other };
 
@@ -78,7 +86,7 @@ struct RigidScene {
     Array<std::int32_t>
         figure_shares; // by awake figure: what is added to its pushes (rigid/carried_pushes.h)
     Array<std::uint8_t> figures_changed; // by the least body: while shares are added
-    Array<std::uint32_t> island_rests;   // by body
+    Array<IslandRest> island_rests;      // by the least body of an island
     // Objects that go through the tick together with bodies and with each other: a flag by slot, empty where
     // there is none; their indices; and whom each may touch: object << 32 | body, ascending.
     Array<std::uint8_t> is_coupled;

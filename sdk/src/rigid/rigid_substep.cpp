@@ -92,11 +92,11 @@ void RigidSubstep::solve_trees(const FigureRange& figure) {
 
 void RigidSubstep::begin(std::uint32_t substep) {
     in_contacts([&](Contact& contact) {
-        if (contact.fast && substep > 1) {
+        if (contact.every_substep && substep > 1) {
             find_points_again(world_, contact);
         }
         const ContactBodies bodies = bodies_of(contact);
-        begin_substep(contact, bodies.a, bodies.b);
+        begin_substep(contact, bodies.a, bodies.b, rate_);
     });
     in_figures([this](const FigureRange& figure) {
         for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::begin_substep(joint, a, b); });
@@ -287,8 +287,9 @@ void RigidSubstep::finish() {
             restore_speed(contact, bodies_of(contact), least_approach_);
         }
     }
-    const auto undo = [this](std::uint32_t i) {
+    const auto stop = [this](std::uint32_t i) {
         const Contact& contact = scene_.contacts[i];
+        stop_parting(contact, bodies_of(contact), rate_);
         undo_overlap(contact, bodies_of(contact), rate_);
     };
     in_figures([&](const FigureRange& figure) {
@@ -298,10 +299,10 @@ void RigidSubstep::finish() {
                 undo_error(joint, a, b);
             }
         });
-        for_each_part(scene_, figure, Part::contact, undo);
+        for_each_part(scene_, figure, Part::contact, stop);
     });
     for (const std::uint32_t i : scene_.shared_contacts) {
-        undo(i);
+        stop(i);
     }
     in_figures([this](const FigureRange& figure) {
         for_each_part(scene_, figure, Part::tree,

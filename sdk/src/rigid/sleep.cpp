@@ -13,8 +13,13 @@ using fixed::Vec3;
 constexpr std::int64_t still_distance = (std::int64_t{1} << world_fraction_bits) / 100;
 // Half turns: two degrees.
 constexpr std::int64_t still_turn = turn_one / 57;
-// How many times longer than others what touches nothing has to stay.
+// How many times longer than others what touches nothing has to stay, and what is squeezed on the average.
 constexpr std::uint32_t hanging_factor = 4;
+constexpr std::uint32_t squeezed_factor = 4;
+// Where their counts end: a twitch does not cost the whole time.
+constexpr std::uint32_t most_factor = 5;
+// Squeezed is what overlaps by more than a millimetre and a half.
+constexpr std::int64_t squeezed_depth = (std::int64_t{3} << world_fraction_bits) / 2000;
 
 // What joints and pushing contacts hold together.
 BodyRoots find_islands(RigidScene& scene) {
@@ -62,7 +67,15 @@ void for_each_disturbed(const lks_world& world, const Use& use) {
 
 void mark_touched(RigidScene& scene) {
     for (Body& body : scene.bodies) {
-        body.touched = body.figure_touched = false;
+        body.touched = body.figure_touched = body.squeezed = false;
+    }
+    for (const Contact& contact : scene.contacts) {
+        if (is_deeper(contact, squeezed_depth)) {
+            scene.bodies[contact.key.body_a].squeezed = true;
+            if (contact.key.other < other_is_collider) {
+                scene.bodies[contact.key.other].squeezed = true;
+            }
+        }
     }
     const auto mark = [&](std::uint32_t body) {
         scene.bodies[body].touched = true;
@@ -76,6 +89,16 @@ void mark_touched(RigidScene& scene) {
     }
 }
 
+// Whether it is where it has rested. What is squeezed may rattle about there.
+bool has_stayed(const Body& body) {
+    const std::int64_t way = sum_of_magnitudes(saturating_subtract(body.position, body.rest_position));
+    if (body.squeezed) {
+        return way <= 2 * still_distance;
+    }
+    return way <= still_distance &&
+           sum_of_magnitudes(half_turn_between(body.rest_orientation, body.orientation)) <= still_turn;
+}
+
 // Counts the ticks for which a body has trembled at one place, or crept. A twitch of a limb takes back some
 // of them, a real motion all. Slow is a pendulum, too, where it turns: of what hangs or floats only those
 // ticks count that it has stayed.
@@ -83,9 +106,7 @@ void count_rest(Body& body, std::int64_t radius, bool hangs, std::uint32_t most)
     constexpr std::int64_t slow = (std::int64_t{1} << world_fraction_bits) / 10;
     constexpr std::int64_t fast = (std::int64_t{1} << world_fraction_bits) / 2;
     constexpr std::uint32_t twitch = 8;
-    const bool stayed =
-        sum_of_magnitudes(saturating_subtract(body.position, body.rest_position)) <= still_distance &&
-        sum_of_magnitudes(half_turn_between(body.rest_orientation, body.orientation)) <= still_turn;
+    const bool stayed = has_stayed(body);
     if (!stayed) {
         body.rest_position = body.position;
         body.rest_orientation = body.orientation;
@@ -96,8 +117,22 @@ void count_rest(Body& body, std::int64_t radius, bool hangs, std::uint32_t most)
     } else if (hangs) {
         body.rest_ticks = 0;
     } else {
-        body.rest_ticks = speed > fast || body.rest_ticks < twitch ? 0 : body.rest_ticks - twitch;
+        const bool twitches = speed <= fast || body.squeezed;
+        body.rest_ticks = twitches && body.rest_ticks >= twitch ? body.rest_ticks - twitch : 0;
     }
+}
+
+void add_rest(IslandRest& island, std::uint32_t ticks, bool squeezed) {
+    island.least = std::min(island.least, ticks);
+    ++island.count;
+    island.sum += ticks;
+    island.squeezed = island.squeezed || squeezed;
+}
+
+// Somebody twitches in a pile at nearly any time: all have to rest for the same time as without overlaps.
+bool has_rested(const IslandRest& island, std::uint32_t enough) {
+    const std::uint64_t on_average = std::uint64_t{squeezed_factor} * enough * island.count;
+    return island.least >= enough && (!island.squeezed || island.sum >= on_average);
 }
 
 // What lies on something and is on its way to sleep gives up a quarter of its speed a tick: a pile in which
@@ -165,7 +200,7 @@ void fall_asleep(lks_world& world) {
         Body& body = scene.bodies[i];
         if (body.is_awake()) {
             const bool alone = hangs(i);
-            count_rest(body, scene.descriptions[i].radius, alone, (alone ? hanging_factor : 2) * enough);
+            count_rest(body, scene.descriptions[i].radius, alone, most_factor * enough);
             if (body.touched && body.rest_ticks >= enough / 3 && scene.descriptions[i].never_sleeps == 0) {
                 calm(body);
             }
@@ -177,23 +212,22 @@ void fall_asleep(lks_world& world) {
     }
     for_each_disturbed(world, [&](std::uint32_t body) { scene.bodies[body].rest_ticks = 0; });
     BodyRoots islands = find_islands(scene);
-    // The least rest of an island, at its root.
-    Array<std::uint32_t>& least = scene.island_rests;
-    least.clear();
+    Array<IslandRest>& rests = scene.island_rests;
+    rests.clear();
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        least.push_reserved(UINT32_MAX);
+        rests.push_reserved({UINT32_MAX, 0, 0, false});
     }
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         const Body& body = scene.bodies[i];
         if (body.is_dynamic()) {
-            std::uint32_t& rest = least[islands.root(i)];
             const std::uint32_t own = hangs(i) ? body.rest_ticks / hanging_factor : body.rest_ticks;
-            rest = std::min(rest, scene.descriptions[i].never_sleeps != 0 ? 0 : own);
+            add_rest(rests[islands.root(i)], scene.descriptions[i].never_sleeps != 0 ? 0 : own,
+                     body.squeezed);
         }
     }
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         Body& body = scene.bodies[i];
-        if (body.is_dynamic() && body.asleep == 0 && least[islands.root(i)] >= enough) {
+        if (body.is_dynamic() && body.asleep == 0 && has_rested(rests[islands.root(i)], enough)) {
             body.asleep = 1;
             body.velocity = {0, 0, 0};
             body.angular_velocity = {0, 0, 0};

@@ -5,7 +5,9 @@
 // been slower than ten centimetres a second, or has stayed within a centimetre and two degrees of one place,
 // for half a second (but for a twitch below half a metre a second), and nothing kinematic that moves touches
 // it; all its speeds become zero. Where nothing pushes it, as what hangs or floats, it has to stay for two
-// seconds, however slow. It wakes as a whole: by an awake body or a moving collider that
+// seconds, however slow. Where something is squeezed, overlaps have time to part: its bodies have to have
+// rested for two seconds on the average, and what is squeezed may rattle within two centimetres. It wakes as
+// a whole: by an awake body or a moving collider that
 // comes to touch one of its bodies, and by whatever the game does to one. A sleeping body's contacts keep
 // their pushes, so that a pile wakes as it fell asleep.
 #pragma once

@@ -1,0 +1,89 @@
+// What overlaps parts, without flying off, and has time to before it falls asleep.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/bodies.h"
+
+using namespace support;
+
+namespace {
+
+// How long until nobody is awake any more, in ticks.
+int ticks_awake(World& world, int most) {
+    int tick = 0;
+    do {
+        world.step();
+        ++tick;
+    } while (tick < most && lks_world_awake_body_count(world) > 0);
+    return tick;
+}
+
+void add_wall(World& world, double x) {
+    lks_collider_def def = lks_default_collider_def();
+    def.shape = LKS_SHAPE_BOX;
+    def.half_extents = fixed(0.5, 1, 1);
+    def.transform.position = fixed(x, 1, 0);
+    world.add(def);
+}
+
+} // namespace
+
+TEST_CASE("a box that begins in the ground comes out of it, and leaves it by next to nothing") {
+    for (const double depth : {0.002, 0.02, 0.1}) {
+        for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+            World world(world_def(60, substeps));
+            add_ground(world);
+            const lks_body_id box = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(0, 0.2 - depth, 0));
+            double highest = -1;
+            double fastest = 0;
+            for (int tick = 0; tick < 120; ++tick) {
+                world.step();
+                const BodyState state = state_of(world, box);
+                highest = std::max(highest, state.position.y - 0.2);
+                fastest = std::max(fastest, state.velocity.length());
+            }
+            INFO(depth << " m, " << substeps << " substeps: " << highest << " m above the ground, " << fastest
+                       << " m/s");
+            CHECK(highest < 1e-4);
+            CHECK(fastest < 0.1); // it parts by up to 0.4 m/s, and none of that is left
+            CHECK(std::abs(state_of(world, box).position.y - 0.2) < 6e-4);
+        }
+    }
+}
+
+TEST_CASE("a light box squeezed between the ground and a heavy one comes free") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    const lks_body_id light = add_body(world, box_shape(0.1, 0.05, 0.1, 100), fixed(0, 0.04, 0));
+    const lks_body_id heavy = add_body(world, box_shape(0.1, 0.1, 0.1, 1400), fixed(0, 0.17, 0));
+    REQUIRE(mass_of(world, heavy) > 25 * mass_of(world, light));
+    const int ticks = ticks_awake(world, 600);
+    const double below = 0.05 - state_of(world, light).position.y;
+    const double between = state_of(world, light).position.y + 0.15 - state_of(world, heavy).position.y;
+    INFO(below << " m and " << between << " m deep, asleep after " << ticks << " ticks");
+    CHECK(below < 1e-3);
+    CHECK(between < 1e-3);
+    CHECK(lks_world_awake_body_count(world) == 0);
+}
+
+TEST_CASE("what nothing can free falls asleep, later than what lies free") {
+    int ticks[2];
+    for (const bool squeezed : {false, true}) {
+        World world(world_def(60, 8));
+        add_ground(world);
+        // A gap of 20 cm, and a box of 19 or 21.
+        add_wall(world, -0.6);
+        add_wall(world, 0.6);
+        const double half = squeezed ? 0.105 : 0.095;
+        const lks_body_id box = add_body(world, box_shape(half, 0.1, 0.1), fixed(0, 0.1, 0));
+        ticks[squeezed ? 1 : 0] = ticks_awake(world, 600);
+        CHECK(lks_world_awake_body_count(world) == 0);
+        CHECK(std::abs(state_of(world, box).position.x) < 6e-3);
+    }
+    INFO("free: asleep after " << ticks[0] << " ticks, squeezed: " << ticks[1]);
+    CHECK(ticks[0] < 60);
+    CHECK(ticks[1] >= 120);
+    CHECK(ticks[1] < 300);
+}
