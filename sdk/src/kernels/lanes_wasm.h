@@ -22,8 +22,8 @@ struct LanesWasm {
     // There is one, but x86 before AVX-512 has none, and engines make it of several instructions.
     static constexpr bool has_signed_shift = false;
     static constexpr bool has_shift_each = false;
-    // There is one that saturates, of which engines make five instructions for x86.
     static constexpr bool has_minimum_64 = false;
+    // There is one that saturates, of which engines make five instructions for x86.
     static constexpr bool has_rounding_multiply_16 = false;
     static constexpr bool has_quick_shift = false;
     static constexpr bool packs_factors = true;
