@@ -114,8 +114,10 @@ LKS_API uint32_t lks_body_get_kind(const lks_world* world, lks_body_id body);
 
 /* Sleep. What has been slower than 10 cm/s, or within a centimetre and two degrees of one place, for half a
  * second, with all that it touches and is jointed to, is taken out of the simulation until something touches
- * it or the game does something to it: a sleeping pile costs next to nothing. Adding, moving or removing a
- * collider, and gravity, wake everybody. 1 while the body is awake; 0 for a kinematic body and a stale id. */
+ * it or the game does something to it: a sleeping pile costs next to nothing. Where nothing touches it that
+ * takes two seconds, and where something overlaps by more than 1.5 mm two seconds on the average. Adding,
+ * moving or removing a collider, and gravity, wake everybody. 1 while the body is awake; 0 for a kinematic
+ * body and a stale id. */
 LKS_API uint32_t lks_body_is_awake(const lks_world* world, lks_body_id body);
 /* With its island, from the next tick on. */
 LKS_API lks_result lks_body_wake(lks_world* world, lks_body_id body);
