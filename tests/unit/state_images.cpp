@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "state/hash.h"
@@ -216,6 +217,23 @@ TEST_CASE("images cut anywhere are refused behind a right checksum and size") {
         CHECK(survives(small, part, accepted));
     }
     CHECK(accepted == 0);
+}
+
+TEST_CASE("an image that counts more than it has bytes for is refused before anything is allocated for it") {
+    Small small;
+    const Image good = small.world.save();
+    // Objects, colliders, bodies, joints, attachments; contacts have a limit by the number of bodies.
+    for (const std::size_t place : {48u, 52u, 56u, 60u, 68u}) {
+        Image bad = good;
+        bad.bytes()[place + 1] = 8; // 2,048 more
+        put_right_checksum(bad);
+        const std::uint64_t before = small.world.hash();
+        CAPTURE(place);
+        CHECK(lks_world_load(small.world, bad.data(), bad.size()) == LKS_ERROR_CORRUPT_IMAGE);
+        CHECK(std::string(lks_world_last_error(small.world)->message).find("add up to its size") !=
+              std::string::npos);
+        CHECK(small.world.hash() == before);
+    }
 }
 
 TEST_CASE("an image that is refused at its end has changed nothing, not even what is derived") {

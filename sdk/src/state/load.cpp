@@ -157,6 +157,9 @@ public:
     // Checks everything, and stages one object for each used slot: the one that is there if it fits, else a
     // new one.
     lks_result check(ByteReader in) {
+        if (least_size() > in.left()) {
+            return corrupt(world_, Sentence() << "The image's parts do not add up to its size.");
+        }
         if (!reserve()) {
             return world_.fail_out_of_memory("an image's objects");
         }
@@ -228,6 +231,14 @@ public:
     }
 
 private:
+    // A slot has a generation and whether it is used, a contact its key and count. What says that it has more
+    // of them than there are bytes is not given memory for them.
+    std::uint64_t least_size() const {
+        const std::uint64_t slots = std::uint64_t{header_.object_slots} + header_.collider_slots +
+                                    header_.body_slots + header_.joint_slots + header_.attachment_slots;
+        return 8 * slots + 16 * std::uint64_t{header_.contact_count};
+    }
+
     bool reserve() {
         return world_.load_staging.reserve(header_.object_slots) &&
                world_.rigid.reserve_objects(header_.object_slots) &&
