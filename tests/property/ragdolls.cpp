@@ -144,14 +144,6 @@ private:
     double limit_now_ = 0;
 };
 
-void add_box(World& world, const lks_vec3& half, const lks_vec3& position) {
-    lks_collider_def def = lks_default_collider_def();
-    def.shape = LKS_SHAPE_BOX;
-    def.half_extents = half;
-    def.transform.position = position;
-    world.add(def);
-}
-
 lks_transform at(double x, double y, double z, double turned) {
     lks_transform transform{fixed(x, y, z), {}};
     REQUIRE(lks_rotation_from_axis_angle(1, 0, 0, turned, &transform.rotation) == LKS_OK);

@@ -94,6 +94,14 @@ inline void add_ground(World& world, double friction = 0.5, const lks_rotation* 
     world.add(def);
 }
 
+inline void add_box(World& world, const lks_vec3& half, const lks_vec3& position) {
+    lks_collider_def def = lks_default_collider_def();
+    def.shape = LKS_SHAPE_BOX;
+    def.half_extents = half;
+    def.transform.position = position;
+    world.add(def);
+}
+
 struct BodyState {
     Vector position;
     Vector velocity;

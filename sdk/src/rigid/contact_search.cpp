@@ -344,7 +344,7 @@ private:
     }
 
     // By more than five millimetres: whatever of it is pushed, something else of it goes in.
-    static bool is_squeezed(const Manifold& manifold) {
+    static bool sticks(const Manifold& manifold) {
         constexpr std::int64_t deep = (std::int64_t{1} << world_fraction_bits) / 200;
         return std::any_of(manifold.points, manifold.points + manifold.count,
                            [](const ManifoldPoint& point) { return point.separation < -deep; });
@@ -360,7 +360,7 @@ private:
         // Boxes beside each other show no points, and may yet meet at their edges.
         const bool unclear = fast && found.manifold.count == 0;
         drop_what_stays_apart(found.manifold, found.key, motion);
-        found.every_substep = fast || is_squeezed(found.manifold);
+        found.every_substep = fast || sticks(found.manifold);
         return found.manifold.count != 0 || unclear;
     }
 

@@ -287,7 +287,7 @@ void RigidSubstep::finish() {
             restore_speed(contact, bodies_of(contact), least_approach_);
         }
     }
-    const auto stop = [this](std::uint32_t i) {
+    const auto finish_overlaps = [this](std::uint32_t i) {
         const Contact& contact = scene_.contacts[i];
         stop_parting(contact, bodies_of(contact), rate_);
         undo_overlap(contact, bodies_of(contact), rate_);
@@ -299,10 +299,10 @@ void RigidSubstep::finish() {
                 undo_error(joint, a, b);
             }
         });
-        for_each_part(scene_, figure, Part::contact, stop);
+        for_each_part(scene_, figure, Part::contact, finish_overlaps);
     });
     for (const std::uint32_t i : scene_.shared_contacts) {
-        stop(i);
+        finish_overlaps(i);
     }
     in_figures([this](const FigureRange& figure) {
         for_each_part(scene_, figure, Part::tree,

@@ -158,7 +158,7 @@ public:
     // new one.
     lks_result check(ByteReader in) {
         if (least_size() > in.left()) {
-            return corrupt(world_, Sentence() << "The image's parts do not add up to its size.");
+            return wrong_size();
         }
         if (!reserve()) {
             return world_.fail_out_of_memory("an image's objects");
@@ -193,7 +193,7 @@ public:
                                               << " in the image is out of range.");
         }
         if (!in.complete() || in.left() != 0) {
-            return corrupt(world_, Sentence() << "The image's parts do not add up to its size.");
+            return wrong_size();
         }
         return LKS_OK;
     }
@@ -231,6 +231,10 @@ public:
     }
 
 private:
+    lks_result wrong_size() const {
+        return corrupt(world_, Sentence() << "The image's parts do not add up to its size.");
+    }
+
     // A slot has a generation and whether it is used, a contact its key and count. What says that it has more
     // of them than there are bytes is not given memory for them.
     std::uint64_t least_size() const {
