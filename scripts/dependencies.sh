@@ -14,7 +14,8 @@ packages_of() {
             ;;
         # Bullet as a peer, gnuplot for the report's plots.
         bench) echo libbenchmark-dev libbullet-dev gnuplot-nox valgrind ;;
-        test) echo doctest-dev clang clang-format clang-tidy python3 binutils ;;
+        # Eigen for the reference solvers.
+        test) echo doctest-dev libeigen3-dev clang clang-format clang-tidy python3 binutils ;;
         # mingw's -posix compiler: the other one has no std::thread.
         portability)
             echo g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-s390x-linux-gnu g++-mingw-w64-x86-64-posix
