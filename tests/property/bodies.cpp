@@ -162,6 +162,68 @@ TEST_CASE("ten boxes upon each other stand for an hour") {
     }
 }
 
+TEST_CASE("towers whose boxes may not sleep stand") {
+    struct Tower {
+        int boxes;
+        std::uint32_t substeps;
+        int seconds;
+        double sway; // metres
+    };
+    lks_body_def def = lks_default_body_def();
+    def.never_sleeps = 1;
+    for (const Tower& tower :
+         {Tower{10, 8, long_runs() ? 3600 : 600, 2e-5}, Tower{20, 8, 60, 2e-5}, Tower{30, 8, 30, 1e-4},
+          Tower{10, 4, 60, 2e-5}, Tower{20, 4, 30, 1e-4}, Tower{10, 2, 60, 2e-5}, Tower{5, 1, 60, 2e-5}}) {
+        World world(world_def(60, tower.substeps));
+        add_ground(world);
+        lks_body_id top{};
+        for (int i = 0; i < tower.boxes; ++i) {
+            top = add_body(world, box_shape(0.5, 0.5, 0.5), fixed(0, 0.5 + i, 0), def);
+        }
+        world.step(60 * static_cast<std::uint32_t>(tower.seconds));
+        const BodyState state = state_of(world, top);
+        const double sway = std::hypot(state.position.x, state.position.z);
+        INFO(tower.boxes << " boxes, " << tower.substeps << " substeps: after " << tower.seconds
+                         << " s the top one is " << sway << " m aside and "
+                         << tower.boxes - 0.5 - state.position.y << " m low");
+        CHECK(sway < tower.sway);
+        CHECK(std::abs(tower.boxes - 0.5 - state.position.y) < 2e-2);
+        CHECK(state.velocity.length() < 1e-5);
+    }
+}
+
+TEST_CASE("a tower of pairs that joints hold together stands, and may not sleep") {
+    struct Tower {
+        int pairs;
+        std::uint32_t substeps;
+        double sway; // metres
+    };
+    lks_body_def def = lks_default_body_def();
+    def.never_sleeps = 1;
+    lks_joint_def joint = lks_default_joint_def();
+    joint.frame_a.position = fixed(0.5, 0, 0);
+    joint.frame_b.position = fixed(-0.5, 0, 0);
+    for (const std::uint32_t kind : {LKS_JOINT_FIXED, LKS_JOINT_HINGE, LKS_JOINT_BALL}) {
+        for (const Tower& tower : {Tower{10, 8, 2e-5}, Tower{20, 8, 3e-2}, Tower{10, 4, 5e-3}}) {
+            World world(world_def(60, tower.substeps));
+            add_ground(world);
+            lks_body_id top{};
+            joint.kind = kind;
+            for (int i = 0; i < tower.pairs; ++i) {
+                top = add_body(world, box_shape(0.5, 0.5, 0.5), fixed(-0.5, 0.5 + i, 0), def);
+                add_joint(world, joint, top,
+                          add_body(world, box_shape(0.5, 0.5, 0.5), fixed(0.5, 0.5 + i, 0), def));
+            }
+            world.step(1800);
+            const Vector place = state_of(world, top).position;
+            const double sway = std::hypot(place.x + 0.5, place.z);
+            INFO("joints of kind " << kind << ", " << tower.pairs << " pairs, " << tower.substeps
+                                   << " substeps: the top one is " << sway << " m aside");
+            CHECK(sway < tower.sway);
+        }
+    }
+}
+
 TEST_CASE("fast bodies don't pass through a thin wall or each other") {
     for (const double speed : {20.0, 60.0}) {
         World world(world_def(60, 8));

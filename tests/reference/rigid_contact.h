@@ -47,7 +47,8 @@ public:
     std::size_t a = 0, b = 0; // bodies, planes behind them
     Scalar radius_a = 0, radius_b = 0;
     Scalar static_friction = 0, dynamic_friction = 0, restitution = 0;
-    Vec normal; // from a to b
+    bool jointed = false; // joints hold one of the bodies
+    Vec normal;           // from a to b
     std::vector<Point> points;
 
     // Points take over the pushes of the tick before: of the same feature, or else of the nearest one that is
@@ -190,22 +191,10 @@ public:
         }
     }
 
-    // What overlaps has parted in this substep, and needs no speed to do so in the next one.
-    void stop_parting(Body& body_a, Body& body_b, Scalar rate) const {
-        for (const Point& point : points) {
-            if (point.active && point.push != 0 && point.allowed < 0) {
-                const Scalar closing = closing_speed(levers_now(point, body_a, body_b), body_a, body_b);
-                const Scalar parting = std::min(-closing, -point.allowed * rate);
-                if (parting > 0) {
-                    point.along.accelerate(-point.along.push_for(parting), body_a, body_b);
-                }
-            }
-        }
-    }
-
-    // Overlaps beyond a centimetre: a quarter a substep, at most three metres a second.
+    // Overlaps beyond half a millimetre, or a centimetre of jointed bodies: a quarter a substep, at most
+    // three metres a second.
     void undo_overlap(Body& body_a, Body& body_b, Scalar rate) const {
-        constexpr Scalar allowed = Scalar(0.01);
+        const Scalar allowed = jointed ? Scalar(0.01) : allowed_overlap;
         Move to_a, to_b;
         bool any = false;
         for (const Point& point : points) {
@@ -229,12 +218,14 @@ private:
         Vec a, b;
     };
 
-    // Beyond half a millimetre they have to part: by thirty times that a second, at most a sixteenth at once
-    // and 0.4 m/s.
-    static Scalar allowed_motion(Scalar separation, Scalar rate) {
-        const Scalar depth = -separation - Scalar(0.0005);
-        return depth <= 0 ? std::max(separation, Scalar(0))
-                          : -std::min({depth / 16, depth * 30 / rate, Scalar(0.4) / rate});
+    static constexpr Scalar allowed_overlap = Scalar(0.0005);
+
+    // Beyond that jointed bodies have to part: by fifteen times that a second, at most a thirty-second at
+    // once and 0.4 m/s.
+    Scalar allowed_motion(Scalar separation, Scalar rate) const {
+        const Scalar depth = -separation - allowed_overlap;
+        return depth <= 0 || !jointed ? std::max(separation, Scalar(0))
+                                      : -std::min({depth / 32, depth * 15 / rate, Scalar(0.4) / rate});
     }
 
     static bool take(std::vector<Point>& old, typename std::vector<Point>::iterator from, Point& to) {

@@ -61,6 +61,9 @@ public:
                 body.follow_rotation();
             }
             contacts_ = search_.find(bodies_, static_cast<Scalar>(settings_.tick_rate_hz), contacts_);
+            for (Contact& contact : contacts_) {
+                contact.jointed = is_jointed(contact);
+            }
             for (int k = 0; k < settings_.substeps; ++k) {
                 substep();
             }
@@ -92,6 +95,12 @@ private:
         }
     }
 
+    bool is_jointed(const Contact& contact) const {
+        return std::any_of(joints_.begin(), joints_.end(), [&](const Joint& joint) {
+            return joint.a == contact.a || joint.a == contact.b || joint.b == contact.a ||
+                   joint.b == contact.b;
+        });
+    }
     // Of two figures.
     bool is_shared(const Contact& contact) const {
         return bodies_[contact.a].moves && bodies_[contact.b].moves &&
@@ -140,7 +149,6 @@ private:
         for (const bool shared : {false, true}) {
             for_each_contact([&](Contact& contact, Body& a, Body& b) {
                 if (is_shared(contact) == shared) {
-                    contact.stop_parting(a, b, rate_);
                     contact.undo_overlap(a, b, rate_);
                 }
             });

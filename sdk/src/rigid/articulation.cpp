@@ -221,11 +221,8 @@ void add_force(ArticulatedBody& body, const Vec3& lever, const Vec3& push) {
 Move move_of(const Body& body, const ArticulatedBody& part) {
     const Vec3 turn = multiply(body.world_inverse, rounded_share(part.share, part.torque));
     const int up = body.inverse_shift - body.scale - 1 + half_turn_fraction_bits - world_fraction_bits;
-    const auto shifted = [up](std::int64_t c) {
-        return up >= 0 ? fixed::wrapping_multiply(c, std::int64_t{1} << up)
-                       : fixed::shift_right_rounded(c, -up);
-    };
-    return {rounded_share(part.share, part.force), {shifted(turn.x), shifted(turn.y), shifted(turn.z)}};
+    return {rounded_share(part.share, part.force),
+            {shifted(turn.x, up), shifted(turn.y, up), shifted(turn.z, up)}};
 }
 
 // The bodies and joints of one tree.

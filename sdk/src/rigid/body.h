@@ -75,6 +75,7 @@ struct Body : BodyState {
     // Of the tick and the substep at work.
     bool slept;          // at the beginning of the tick
     std::int64_t struck; // asleep: how fast particles would have made it, World m/s
+    bool jointed;        // joints hold it
     bool touched;        // by a contact that pushed at the end of the tick
     bool squeezed;       // deep in something else, at the beginning of the last substep
     bool figure_touched; // the least body of a figure: any of its bodies is

@@ -13,7 +13,7 @@ using fixed::Vec3;
 
 // Overlaps up to this stay: half a millimetre.
 constexpr std::int64_t allowed_overlap = (std::int64_t{1} << world_fraction_bits) / 2000;
-// What is deeper than this is undone without speed: a centimetre.
+// Of jointed bodies, what is deeper than this is undone without speed: a centimetre.
 constexpr std::int64_t deep_overlap = (std::int64_t{1} << world_fraction_bits) / 100;
 // How fast the rest parts at most: 0.4 m/s.
 constexpr std::int64_t greatest_parting = (std::int64_t{2} << world_fraction_bits) / 5;
@@ -62,15 +62,15 @@ void undo(Body& body, const Move& move, std::int32_t share) {
     }
 }
 
-// How far surfaces may close in a substep, or, less than nothing, have to part: by thirty times what is to be
-// undone a second, at most a sixteenth of it at once.
-std::int64_t allowed_motion(std::int64_t separation, const MotionRate& rate) {
+// How far surfaces may close in a substep, or, less than nothing, have to part: by fifteen times what is to
+// be undone a second, at most a thirty-second of it at once.
+std::int64_t allowed_motion(const Contact& contact, std::int64_t separation, const MotionRate& rate) {
     const std::int64_t depth = -separation - allowed_overlap;
-    if (depth <= 0) {
+    if (depth <= 0 || !contact.jointed) {
         return std::max<std::int64_t>(separation, 0);
     }
     const std::int64_t n = rate.substeps_per_second;
-    return -std::min({depth / 16, depth * 30 / n, greatest_parting / n});
+    return -std::min({depth / 32, depth * 15 / n, greatest_parting / n});
 }
 
 std::int64_t closing_speed(const Contact& contact, const Levers& levers, const Body& a, const Body& b) {
@@ -170,7 +170,7 @@ void begin_substep(Contact& contact, const Body& a, const Body& b, const MotionR
         point.start = distance_now(a, point.material_a, b, point.material_b);
         point.core_start = between + cores.b - cores.a;
         point.separation = fixed::dot(contact.normal(), between + levers.b - levers.a);
-        point.allowed = allowed_motion(point.separation, rate);
+        point.allowed = allowed_motion(contact, point.separation, rate);
         point.approach = contact.restitution == 0 ? 0 : closing_speed(contact, levers, a, b);
         point.active = false;
     }
@@ -223,32 +223,19 @@ void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t le
     }
 }
 
-void stop_parting(const Contact& contact, ContactBodies bodies, const MotionRate& rate) {
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        const ContactPoint& point = contact.points[i];
-        if (!point.active || point.push.normal == 0 || point.allowed >= 0) {
-            continue;
-        }
-        const std::int64_t parting =
-            std::min(-closing_speed(contact, point, bodies), -point.allowed * rate.substeps_per_second);
-        if (parting > 0) {
-            accelerate(contact, point.rows, -divide(parting, point.rows.inverses[normal_row]), bodies);
-        }
-    }
-}
-
 void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate& rate) {
     // At most three metres a second, and a quarter of what is left.
     const std::int64_t most = LKS_FIXED(3) / rate.substeps_per_second;
+    const std::int64_t left = contact.jointed ? deep_overlap : allowed_overlap;
     Move move_a;
     Move move_b;
     bool any = false;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         const ContactPoint& point = contact.points[i];
-        if (!point.active || point.separation >= -deep_overlap) {
+        if (!point.active || point.separation >= -left) {
             continue;
         }
-        const std::int64_t depth = std::min((-point.separation - deep_overlap) / 4, most);
+        const std::int64_t depth = std::min((-point.separation - left) / 4, most);
         const std::int64_t p = divide(depth, point.rows.inverses[normal_row]);
         const Vec3 along = fixed::scale(contact.normal(), p);
         const auto add = [&](Move& move, const ContactRowSide& side, std::int32_t share, int sign) {

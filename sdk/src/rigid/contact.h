@@ -5,9 +5,9 @@
 // fixed in the bodies: along the normal it must not close what was open (nor deepen what overlapped), and
 // across it friction stops it within Coulomb's cone. Each row starts with the push that the same point
 // needed in the substep before, so a pile that rests is held exactly and stays as it is, to the bit. What
-// overlaps has to part, by a share of the overlap in a substep: joints and neighbours take part in that as in
-// any motion, and pushes grow until what is squeezed comes free. The speed that it takes is taken out again.
-// What is deeper than a centimetre is undone before that by moving the two bodies without giving them speed.
+// overlaps is undone by moving the two bodies without giving them speed. Where joints hold one of them they
+// would take most of that back: up to a centimetre these have to part, by a share of the overlap in a
+// substep, so that joints and neighbours take part in it, and pushes grow until what is squeezed comes free.
 #pragma once
 
 #include <span>
@@ -85,6 +85,7 @@ struct Contact {
     std::int64_t restitution;       // World
     std::int64_t given_speed;       // World m/s: what it gave along its normals in this tick, added up
     bool every_substep;             // its points are looked for in each, not once a tick
+    bool jointed;                   // joints hold one of its bodies
     fixed::Direction directions[3]; // the normal, from a to b, and two across it
     // Of the substep: a push along the normal at the middle of all active points, where they are several.
     ContactRows middle;
@@ -146,9 +147,7 @@ void project(Contact& contact, ContactMoves moves, bool back);
 void add_up_pushes(Contact& contact, const MotionRate& rate);
 // Once velocities are known.
 void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t least_approach);
-// Then: what overlaps has parted in this substep, and needs no speed to do so in the next one.
-void stop_parting(const Contact& contact, ContactBodies bodies, const MotionRate& rate);
-// Last: deep overlaps, by moving bodies without giving them speed.
+// Last: overlaps that do not part by a motion, by moving bodies without giving them speed.
 void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate& rate);
 // Whether any of its points overlaps by more than this.
 bool is_deeper(const Contact& contact, std::int64_t depth);

@@ -25,9 +25,27 @@ void find_ranges(RigidScene& scene) {
     }
 }
 
+void mark_jointed(RigidScene& scene) {
+    for (Body& body : scene.bodies) {
+        body.jointed = false;
+    }
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        if (scene.joint_slots[i].used) {
+            const JointDescription& joint = scene.joints[i].description;
+            scene.bodies[joint.body_a].jointed = scene.bodies[joint.body_b].jointed = true;
+        }
+    }
+    for (Contact& contact : scene.contacts) {
+        const ContactKey& key = contact.key;
+        contact.jointed = scene.bodies[key.body_a].jointed ||
+                          (key.other < other_is_collider && scene.bodies[key.other].jointed);
+    }
+}
+
 } // namespace
 
 void find_figures(RigidScene& scene) {
+    mark_jointed(scene);
     BodyRoots roots(scene, scene.figures);
     roots.join_by_joints();
     scene.figure_parts.clear();

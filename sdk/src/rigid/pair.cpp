@@ -15,18 +15,6 @@ constexpr int half_turn_bits = half_turn_fraction_bits;
 // Beyond this a lever is so long against the body that the body turns as if it were heavier.
 constexpr std::int32_t greatest_weight_shift = 24;
 
-// value · 2^shift, rounded to the nearest; saturates at 2^50.
-std::int64_t shifted(std::int64_t value, int shift) {
-    constexpr std::int64_t limit = std::int64_t{1} << 50;
-    if (shift <= 0) {
-        return shift < -62 ? 0 : fixed::shift_right_rounded(value, -shift);
-    }
-    if (shift > 50 || value > (limit >> shift) || value < -(limit >> shift)) {
-        return value == 0 ? 0 : value < 0 ? -limit : limit;
-    }
-    return value * (std::int64_t{1} << shift);
-}
-
 std::int32_t share_of(const InverseMass& part, const InverseMass& whole) {
     if (part.mantissa == 0) {
         return 0;
@@ -67,7 +55,7 @@ std::int64_t turning_weight(std::int32_t share, const Direction& turn, const Dir
     return shifted((form * share) >> 30, shift);
 }
 
-// What a push of p does to the body, 33 fraction bits.
+// What a push of p does to the body.
 Vec3 half_turn_of(const Direction& turn, std::int32_t share, std::int32_t turn_shift, std::int64_t p,
                   int sign) {
     const std::int64_t own = sign * fixed::scale_component(share, p);
@@ -90,13 +78,24 @@ Vec3 half_turn_of(const Body& body, std::int32_t share, int shift, const Vec3& p
 }
 
 // A quarter an axis.
-Vec3 clamped_turn(const Vec3& half_turn_33) {
+Vec3 clamped_turn(const Vec3& half_turn) {
     const std::int64_t limit = std::int64_t{1} << (half_turn_bits - 2);
     const auto part = [limit](std::int64_t c) { return std::clamp(c, -limit, limit); };
-    return {part(half_turn_33.x), part(half_turn_33.y), part(half_turn_33.z)};
+    return {part(half_turn.x), part(half_turn.y), part(half_turn.z)};
 }
 
 } // namespace
+
+std::int64_t shifted(std::int64_t value, int shift) {
+    constexpr std::int64_t limit = std::int64_t{1} << 50;
+    if (shift <= 0) {
+        return shift < -62 ? 0 : fixed::shift_right_rounded(value, -shift);
+    }
+    if (shift > 50 || value > (limit >> shift) || value < -(limit >> shift)) {
+        return value == 0 ? 0 : value < 0 ? -limit : limit;
+    }
+    return value * (std::int64_t{1} << shift);
+}
 
 bool heavier(const InverseMass& a, const InverseMass& b) {
     if (a.mantissa == 0 || b.mantissa == 0) {
@@ -145,16 +144,18 @@ UnitLever to_unit(const Body& body, const Vec3& lever) {
     return {{part(lever.x), part(lever.y), part(lever.z)},
             weight_shift,
             body.inverse_shift + longer - body.scale - (wanted - weight_shift) - 1,
-            std::max(half_turn_bits + 30 - 1 - world_fraction_bits - unit, 0)};
+            std::max(half_turn_bits + arm_fraction_bits - 1 - world_fraction_bits - unit, 0)};
 }
 
 PushRow push_row(const Body& body, std::int32_t share, const Direction& normal, const UnitLever& lever,
                  std::int64_t& weight) {
-    PushRow row{};
-    row.arm = narrow_cross(lever.lever, normal);
-    row.turn = multiply_direction(body.world_inverse, row.arm);
-    weight += share + turning_weight(share, row.turn, row.arm, lever.weight_shift);
-    return row;
+    const Direction arm = narrow_cross(lever.lever, normal);
+    const Direction turn = multiply_direction(body.world_inverse, arm);
+    weight += share + turning_weight(share, turn, arm, lever.weight_shift);
+    const auto part = [](std::int32_t c) {
+        return static_cast<std::int32_t>(fixed::shift_right_rounded(std::int64_t{c}, 30 - arm_fraction_bits));
+    };
+    return {{part(arm.x), part(arm.y), part(arm.z)}, turn};
 }
 
 RowSide push_side(const Body& body, std::int32_t share, const Direction& normal, const Vec3& lever,
@@ -212,22 +213,31 @@ void add_turning_block(const Body& body, std::int32_t share, int reach, std::int
     }
 }
 
-void turn_body(Body& body, const Vec3& half_turn_33) {
-    const auto [x, y, z] = clamped_turn(half_turn_33);
+void turn_body(Body& body, const Vec3& half_turn) {
+    auto [x, y, z] = clamped_turn(half_turn);
     if ((x | y | z) == 0) {
         return;
     }
-    // q += τ⊗q with 33 + 30 fraction bits.
+    // q += τ⊗q with 40 + 30 fraction bits, of which a large turn would need more than 64.
+    constexpr std::int64_t small = std::int64_t{1} << (half_turn_bits - 8);
+    const bool is_large = std::max({x, y, z}) > small || std::min({x, y, z}) < -small;
+    int down = half_turn_bits + 30 - turn_fraction_bits;
+    if (is_large) {
+        constexpr int coarser = 7;
+        x = fixed::shift_right_rounded(x, coarser);
+        y = fixed::shift_right_rounded(y, coarser);
+        z = fixed::shift_right_rounded(z, coarser);
+        down -= coarser;
+    }
     const fixed::Rotation q = narrow(body.orientation);
-    const auto part = [](std::int64_t c) { return fixed::shift_right_rounded(c, 3); };
+    const auto part = [down](std::int64_t c) { return fixed::shift_right_rounded(c, down); };
     Quaternion& to = body.orientation;
     to.x += part(x * q.w + y * q.z - z * q.y);
     to.y += part(y * q.w + z * q.x - x * q.z);
     to.z += part(z * q.w + x * q.y - y * q.x);
     to.w -= part(x * q.x + y * q.y + z * q.z);
     // Small turns leave the length as it is but for their square, and the end of the substep sees to that.
-    constexpr std::int64_t small = std::int64_t{1} << (half_turn_bits - 8);
-    if (std::max({x, y, z}) > small || std::min({x, y, z}) < -small) {
+    if (is_large) {
         to = normalise(to);
     }
     body.follow_orientation();

@@ -287,10 +287,8 @@ void RigidSubstep::finish() {
             restore_speed(contact, bodies_of(contact), least_approach_);
         }
     }
-    const auto finish_overlaps = [this](std::uint32_t i) {
-        const Contact& contact = scene_.contacts[i];
-        stop_parting(contact, bodies_of(contact), rate_);
-        undo_overlap(contact, bodies_of(contact), rate_);
+    const auto undo = [this](std::uint32_t i) {
+        undo_overlap(scene_.contacts[i], bodies_of(scene_.contacts[i]), rate_);
     };
     in_figures([&](const FigureRange& figure) {
         for_each_joint(figure, [](Joint& joint, Body& a, Body& b) {
@@ -299,10 +297,10 @@ void RigidSubstep::finish() {
                 undo_error(joint, a, b);
             }
         });
-        for_each_part(scene_, figure, Part::contact, finish_overlaps);
+        for_each_part(scene_, figure, Part::contact, undo);
     });
     for (const std::uint32_t i : scene_.shared_contacts) {
-        finish_overlaps(i);
+        undo(i);
     }
     in_figures([this](const FigureRange& figure) {
         for_each_part(scene_, figure, Part::tree,
