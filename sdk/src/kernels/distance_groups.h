@@ -19,6 +19,25 @@ struct StagedGroup {
     Factors<L> f;
 };
 
+// What a group's differences come to.
+template <typename L, bool damped>
+struct Sums {
+    Group<L> u;
+    Group<L> motion;
+};
+template <typename L>
+struct Sums<L, false> {
+    Group<L> u;
+};
+
+// A group that rolls (kernels/distance_rolling.h).
+template <typename L>
+struct RollingGroup {
+    RunAccess<L> at;
+    StagedGroup<L> staged;
+    bool apart; // it can't move as most do
+};
+
 template <typename L, bool soft, bool damped, bool multiplier>
 class DistanceGroups {
     using R = typename L::Register;
@@ -29,33 +48,29 @@ class DistanceGroups {
     using Lengths = LengthLanes<L>;
 
 public:
+    using OfDifferences = Sums<L, damped>;
+
     explicit DistanceGroups(const DistanceTask& task)
-        : task_(task), narrow_(task.parameters.difference_shift), gain_shift_(task.parameters.gain_shift),
+        : task_(task), narrow_(task.parameters.difference_shift),
           rounded_gain_shift_(task.parameters.gain_shift),
-          low_gain_shift_(L::make_shift(task.parameters.gain_shift - 31)),
           product_shift_(
               task.parameters.product_shift,
               task.parameters.product_shift > 0 ? std::int64_t{1} << (task.parameters.product_shift - 1) : 0),
-          plain_(task.parameters.product_shift == 0), octave_(task.parameters.rest_exponent),
-          ratio_shift_(L::set(32 + task.parameters.rest_exponent)),
-          gain_rounding_(L::set(std::int64_t{1} << (task.parameters.gain_shift - 1))),
-          error_share_(F::constant(task.parameters.error_share)),
-          damping_share_(F::constant(task.parameters.damping_share)),
-          length_shift_(L::set(30 - task.parameters.difference_shift)), axes_{task.arrays.x, task.arrays.y,
-                                                                              task.arrays.z},
+          octave_(task.parameters.rest_exponent),
+          ratio_shift_(L::set(32 + task.parameters.rest_exponent)), axes_{task.arrays.x, task.arrays.y,
+                                                                          task.arrays.z},
           starts_{task.arrays.start_x, task.arrays.start_y, task.arrays.start_z} {}
 
     template <typename Access>
     LKS_FORCE_INLINE void find_differences(const Access& at, StagedGroup<L>& group) const {
         R beyond = L::set(0);
+        OfDifferences sums;
         for (int axis = 0; axis < 3; ++axis) {
-            const N now = lifted_difference(at, axes_[axis], beyond);
-            group.d[axis] = Narrowing<L>::unlifted(now);
-            if constexpr (damped) {
-                const N start = lifted_difference(at, starts_[axis], beyond);
-                add_product(group.motion, axis, group.d[axis], F::difference(now, start));
-            }
-            add_product(group.u, axis, group.d[axis], group.d[axis]);
+            find_difference(at, axis, group.d, sums, beyond);
+        }
+        group.u = sums.u;
+        if constexpr (damped) {
+            group.motion = sums.motion;
         }
         const R high_u = F::high_words(group.u);
         // Whether a lane is not as these words want it, or its motion is too large.
@@ -112,7 +127,69 @@ public:
         }
     }
 
+    // The first group that rolls.
+    LKS_FORCE_INLINE void begin(RollingGroup<L>& group, OfDifferences& sums) const {
+        R beyond = L::set(0);
+        for (int axis = 0; axis < 3; ++axis) {
+            find_difference(group.at, axis, group.staged.d, sums, beyond);
+        }
+        group.staged.plain = leaves(sums, beyond);
+    }
+
+    // From the sums of a group and f of the one before it the sums of the next and f of its own.
+    // Between the steps of its square root the differences of the next are found, and the one before moves,
+    // as both ends are alike.
+    LKS_FORCE_INLINE void roll(const RollingGroup<L>& before, const RollingGroup<L>& now,
+                               RollingGroup<L>& next, OfDifferences& sums, N& f) const {
+        R beyond = L::set(0);
+        OfDifferences of_next;
+        const N gain = rounded_gain_shift_.factors(F::multiply_signed(before.at.load(task_.shares_a), f));
+        const auto meanwhile = [&](int axis) {
+            find_difference(next.at, axis, next.staged.d, of_next, beyond);
+            move_axis(before.at, axis, before.staged.d[axis], gain);
+        };
+        const Aligned<L, 1> aligned = align_each<L, 1>(Each<G, 1>{{sums.u}});
+        const auto words = reciprocal_sqrt_lanes<L, 1>(aligned.m, meanwhile);
+        const Lengths lengths{aligned.twice_k[0], aligned.m[0].factors, F::of_words(words[0])};
+        const G ratio = F::multiply_unsigned(now.at.load(task_.rest_mantissas), lengths.y);
+        f = relative_error_each<L>(ratio, ratio_shift_, lengths.twice_k);
+        if constexpr (damped) {
+            f = F::low(damp(sums.motion, f, lengths));
+        }
+        now.at.clear_done(f);
+        next.staged.plain = leaves(of_next, beyond);
+        sums = of_next;
+    }
+
+    // Whether both ends move alike.
+    template <typename Access>
+    LKS_FORCE_INLINE bool alike(const Access& at) const {
+        return F::all_equal(at.load(task_.shares_a), at.load(task_.shares_b));
+    }
+
 private:
+    // d along one axis, and what it adds to the group's squares.
+    template <typename Access>
+    LKS_FORCE_INLINE void find_difference(const Access& at, int axis, N* d, OfDifferences& sums,
+                                          R& beyond) const {
+        const N now = lifted_difference(at, axes_[axis], beyond);
+        d[axis] = Narrowing<L>::unlifted(now);
+        if constexpr (damped) {
+            const N start = lifted_difference(at, starts_[axis], beyond);
+            add_product(sums.motion, axis, d[axis], F::difference(now, start));
+        }
+        add_product(sums.u, axis, d[axis], d[axis]);
+    }
+    LKS_FORCE_INLINE bool leaves(const OfDifferences& sums, R beyond) const {
+        const R high_u = F::high_words(sums.u);
+        if constexpr (damped) {
+            return narrow_.leaves(beyond, L::bit_or(L::equal_32(high_u, L::set_32(0)),
+                                                    exceeds(F::high_words(sums.motion), high_u)));
+        } else {
+            return narrow_.leaves_or_vanishes(beyond, high_u);
+        }
+    }
+
     struct Squares {
         const StagedGroup<L>* groups;
         LKS_FORCE_INLINE const G& operator[](I i) const { return groups[i].u; }
@@ -179,7 +256,7 @@ private:
     LKS_FORCE_INLINE bool soften(const Access& at, StagedGroup<L>& group, const Lengths& lengths) const {
         const bool relaxed = multiplier && task_.relaxations != nullptr;
         if constexpr (damped) {
-            const G f = damp(group, lengths);
+            const G f = damp(group.motion, group.f, lengths);
             if (relaxed) {
                 return relax_by_multiplier(at, lengths, f, group.f);
             }
@@ -191,12 +268,16 @@ private:
         return true;
     }
 
+    static SignedShift<L> rounded_unit_shift() {
+        return SignedShift<L>(unit_fraction_bits, std::int64_t{1} << (unit_fraction_bits - 1));
+    }
+
     template <typename Access>
     LKS_FORCE_INLINE bool relax_by_multiplier(const Access& at, const Lengths& lengths, const G& f,
                                               N& relaxed) const {
         R beyond = L::set(0);
         const N length = Narrowing<L>::unlifted(narrow_(at.load_wide(task_.arrays.multipliers), beyond));
-        const G share = rounded_unit_shift_(F::multiply_signed(at.load(task_.relaxations), length));
+        const G share = rounded_unit_shift()(F::multiply_signed(at.load(task_.relaxations), length));
         const G product = F::multiply_signed(F::low(share), lengths.y);
         const R a = L::subtract(f.a, over_length(product.a, LengthShift(lengths.twice_k.a)));
         const R b = L::subtract(f.b, over_length(product.b, LengthShift(lengths.twice_k.b)));
@@ -208,24 +289,23 @@ private:
     }
 
     // c·g − γ'·motion/u. Only the low halves count where there are no multipliers: f is within ±1.
-    LKS_FORCE_INLINE G damp(const StagedGroup<L>& group, const Lengths& lengths) const {
-        const auto align = [](R motion, R twice_k) {
-            return L::add(L::shift_left_each(motion, L::subtract(twice_k, L::set(2))),
+    LKS_FORCE_INLINE G damp(const G& motion, const N& g, const Lengths& lengths) const {
+        const auto align = [](R product, R twice_k) {
+            return L::add(L::shift_left_each(product, L::subtract(twice_k, L::set(2))),
                           L::set(std::int64_t{1} << 31));
         };
-        const N high =
-            F::high({align(group.motion.a, lengths.twice_k.a), align(group.motion.b, lengths.twice_k.b)});
+        const N high = F::high({align(motion.a, lengths.twice_k.a), align(motion.b, lengths.twice_k.b)});
         const N reciprocal = F::high(F::multiply_unsigned(lengths.y, lengths.y));
         const auto rounded = [](R product) {
             return L::template shift_right<28>(L::add(product, L::set(std::int64_t{1} << 27)));
         };
         const G product = F::multiply_signed(high, reciprocal);
-        const N motion = F::low({rounded(product.a), rounded(product.b)});
-        const G error = F::multiply_signed(F::splat(error_share_), group.f);
-        const G damping = F::multiply_signed(F::splat(damping_share_), motion);
+        const N share = F::low({rounded(product.a), rounded(product.b)});
+        const G error = F::multiply_signed(F::splat(F::constant(task_.parameters.error_share)), g);
+        const G damping = F::multiply_signed(F::splat(F::constant(task_.parameters.damping_share)), share);
         const G f{L::subtract(error.a, damping.a), L::subtract(error.b, damping.b)};
         if constexpr (multiplier) {
-            return rounded_unit_shift_(f);
+            return rounded_unit_shift()(f);
         } else {
             const auto low = [](R sum) {
                 return L::template shift_right<unit_fraction_bits>(
@@ -268,7 +348,8 @@ private:
 
     // From f·√m.
     LKS_FORCE_INLINE R length_of(R product, R twice_k) const {
-        const R right = L::add(length_shift_, L::template shift_right<1>(twice_k));
+        const R right =
+            L::add(L::set(30 - task_.parameters.difference_shift), L::template shift_right<1>(twice_k));
         const R lift = L::set(std::int64_t{1} << 62);
         return L::subtract(L::shift_right_each(L::add(L::add(product, product), lift), right),
                            L::shift_right_each(lift, right));
@@ -278,14 +359,19 @@ private:
     LKS_FORCE_INLINE void move_alike(const Access& at, const N* d, const N& f, const N& share) const {
         const N gain = rounded_gain_shift_.factors(F::multiply_signed(share, f));
         for (int axis = 0; axis < 3; ++axis) {
-            const G correction = to_coordinate(F::multiply_signed(d[axis], gain));
-            at.move(axes_[axis], correction, correction);
+            move_axis(at, axis, d[axis], gain);
         }
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE void move_axis(const Access& at, int axis, const N& d, const N& gain) const {
+        const G correction = to_coordinate(F::multiply_signed(d, gain));
+        at.move(axes_[axis], correction, correction);
     }
 
     LKS_FORCE_INLINE G to_coordinate(const G& product) const {
         if constexpr (soft) {
-            return plain_ ? product : product_shift_(product);
+            return task_.parameters.product_shift == 0 ? product : product_shift_(product);
         } else {
             return product;
         }
@@ -297,18 +383,22 @@ private:
 
     // Where the shares are equal: the rounded gain, and no bits behind it.
     LKS_FORCE_INLINE LongGain long_gain(const N& share, const N& f, const G& alike) const {
+        const int count = task_.parameters.gain_shift;
+        const R rounding = L::set(std::int64_t{1} << (count - 1));
+        const typename L::Shift low_count = L::make_shift(count - 31);
         G product = F::multiply_signed(share, f);
-        product = {L::add(product.a, L::bit_and(gain_rounding_, alike.a)),
-                   L::add(product.b, L::bit_and(gain_rounding_, alike.b))};
-        const auto low = [this](R value, R none) {
-            return L::and_not(none, L::bit_and(L::shift_right(value, low_gain_shift_), L::set(INT32_MAX)));
+        product = {L::add(product.a, L::bit_and(rounding, alike.a)),
+                   L::add(product.b, L::bit_and(rounding, alike.b))};
+        const auto low = [&](R value, R none) {
+            return L::and_not(none, L::bit_and(L::shift_right(value, low_count), L::set(INT32_MAX)));
         };
-        return {gain_shift_.factors(product), F::low({low(product.a, alike.a), low(product.b, alike.b)})};
+        return {SignedShift<L>(count).factors(product),
+                F::low({low(product.a, alike.a), low(product.b, alike.b)})};
     }
 
     LKS_FORCE_INLINE G long_product(const N& difference, const LongGain& gain) const {
         const G high = F::multiply_signed(difference, gain.high);
-        const G low = low_product_shift_(F::multiply_signed(difference, gain.low));
+        const G low = SignedShift<L>(31)(F::multiply_signed(difference, gain.low));
         return to_coordinate({L::add(high.a, low.a), L::add(high.b, low.b)});
     }
 
@@ -325,19 +415,10 @@ private:
 
     DistanceTask task_; // a copy, so that what is stored can't be thought to change it
     Narrowing<L> narrow_;
-    SignedShift<L> gain_shift_;
     GainShift<L> rounded_gain_shift_;
-    typename L::Shift low_gain_shift_;
-    SignedShift<L> low_product_shift_{31};
-    SignedShift<L> rounded_unit_shift_{unit_fraction_bits, std::int64_t{1} << (unit_fraction_bits - 1)};
     SignedShift<L> product_shift_;
-    bool plain_;
     OctaveOf<L> octave_;
     R ratio_shift_;
-    R gain_rounding_;
-    R error_share_;
-    R damping_share_;
-    R length_shift_;
     std::int64_t* axes_[3];
     const std::int64_t* starts_[3];
 };

@@ -4,11 +4,13 @@
 // constraints is two registers of coordinates, A and B; what is 32 bits wide is kept where 32×32→64
 // multiplications find it, and worked on in one register (kernels/factors.h). Some groups go through
 // each stage together (differences, corrections, movements): a group's steps wait for each other, and the
-// steps of its neighbours fill the time. A group in which a lane leaves the fast range (an edge 2^30 units
+// steps of its neighbours fill the time. Where many follow each other they roll (kernels/distance_rolling.h).
+// A group in which a lane leaves the fast range (an edge 2^30 units
 // long, or shorter than 2^16) is projected in plain integers, which gives the same bits.
 #pragma once
 
 #include "kernels/distance_groups.h"
+#include "kernels/distance_rolling.h"
 #include "kernels/distance_scalar_loop.h"
 
 namespace lks {
@@ -35,7 +37,7 @@ public:
         bool alike = true;
         for (std::uint32_t i = 0; i < count; ++i) {
             at[i].clear_done(staged[i].f);
-            alike = alike && !is_in(unequal_, at[i].first_constraint());
+            alike = alike && !may_differ(at[i]);
         }
         alike ? move_each<true>(at, staged, count) : move_each<false>(at, staged, count);
     }
@@ -52,6 +54,15 @@ public:
     template <typename Access>
     LKS_NEVER_INLINE void project_apart(const Access* at, std::uint32_t count) const {
         project(at, count);
+    }
+    template <typename Access>
+    LKS_NEVER_INLINE void move_apart(const Access& at, const StagedGroup<L>& group) const {
+        move<false>(at, group);
+    }
+    // Its ends may have shares of their own.
+    template <typename Access>
+    LKS_FORCE_INLINE bool may_differ(const Access& at) const {
+        return is_in(unequal_, at.first_constraint());
     }
     LKS_NEVER_INLINE void project_one(std::uint32_t constraint, std::uint32_t a, std::uint32_t b) const {
         project_one_(constraint, a, b);
@@ -96,7 +107,7 @@ private:
             at.for_each([this](std::uint32_t constraint, std::uint32_t a, std::uint32_t b) {
                 project_one(constraint, a, b);
             });
-        } else if (alike || !is_in(unequal_, at.first_constraint())) {
+        } else if (alike || !may_differ(at)) {
             groups_.template move<true>(at, group);
         } else {
             groups_.template move<false>(at, group);
@@ -130,6 +141,26 @@ public:
             }
             begin_run(run_part(part_, next_++));
         }
+    }
+
+    // The next one. False: there is none.
+    bool take_one(RunAccess<L>& next) {
+        while (!take_more(next)) {
+            if (next_ == part_.run_count) {
+                return false;
+            }
+            begin_run(run_part(part_, next_++));
+        }
+        return true;
+    }
+    // The next one of the same run.
+    LKS_FORCE_INLINE bool take_more(RunAccess<L>& next) {
+        if (at_ >= in_groups_) {
+            return false;
+        }
+        next = group();
+        at_ += lanes;
+        return true;
     }
 
     // All of them, one after the other.
@@ -193,8 +224,24 @@ private:
     PartialAccess<L> short_[PartialAccess<L>::together];
 };
 
+// Whether it pays that the part's groups roll: there are many, and not all have ends with shares of their
+// own.
+template <typename L>
+inline bool rolls(const BatchPart& part) {
+    const ConstraintRange unequal = part.unequal_shares;
+    return singles(part).first - part.range.first >= L::rolls_from &&
+           !(unequal.first <= part.range.first && part.range.last <= unequal.last);
+}
+
+template <typename L, typename Groups, typename Stage>
+LKS_NEVER_INLINE void project_rolling(const BatchPart& part, const Groups& groups, const Stage& stages) {
+    RunGroups<L, Stage> runs(part, stages);
+    Rolling<L, Groups, Stage>(groups, stages).project(runs);
+    runs.finish();
+}
+
 template <typename L, typename Stage>
-inline void project_runs(const BatchPart& part, const Stage& stages) {
+inline void project_in_stages(const BatchPart& part, const Stage& stages) {
     RunGroups<L, Stage> runs(part, stages);
     if constexpr (L::together == 1) {
         runs.project_in_turn();
@@ -209,6 +256,17 @@ inline void project_runs(const BatchPart& part, const Stage& stages) {
         }
     }
     runs.finish();
+}
+
+template <typename L, bool may_roll, typename Groups, typename Stage>
+inline void project_runs(const BatchPart& part, const Groups& groups, const Stage& stages) {
+    if constexpr (may_roll) {
+        if (rolls<L>(part)) {
+            project_rolling<L>(part, groups, stages);
+            return;
+        }
+    }
+    project_in_stages<L>(part, stages);
 }
 
 template <typename L, typename Stage>
@@ -242,7 +300,7 @@ inline void project_in_groups(const DistanceTask& task) {
         const BatchPart& part = task.parts[p];
         const Stages<L, Groups, ProjectOne> stages(groups, project_one, part.unequal_shares);
         if (part.run_count != 0) {
-            project_runs<L>(part, stages);
+            project_runs<L, L::rolls_from != 0 && !multiplier>(part, groups, stages);
         }
         if (part.first_single < part.range.last) {
             project_singles<L>(task, part, stages);

@@ -25,6 +25,7 @@ struct EvenFactors {
     // The same number everywhere.
     static R constant(std::int64_t value) { return L::set(value); }
     LKS_FORCE_INLINE static Factors splat(R constant) { return {constant, constant}; }
+    LKS_FORCE_INLINE static Factors none() { return splat(L::set(0)); }
     static Factors load(const std::uint32_t* p) { return {L::load_widened(p), L::load_widened(p + L::half)}; }
 
     LKS_FORCE_INLINE static Factors low(const Group<L>& v) { return v; }
@@ -70,6 +71,7 @@ struct PackedFactors {
         return L::set_32(static_cast<std::int32_t>(static_cast<std::uint32_t>(value)));
     }
     LKS_FORCE_INLINE static Factors splat(R constant) { return constant; }
+    LKS_FORCE_INLINE static Factors none() { return L::set(0); }
     static Factors load(const std::uint32_t* p) { return L::load_32(p); }
 
     LKS_FORCE_INLINE static Factors low(const Group<L>& v) { return L::pack_low_halves(v.a, v.b); }

@@ -17,12 +17,15 @@ struct LanesAvx2 {
     static constexpr std::uint32_t singles_together = 8;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 2;
+    // Parts of so many constraints roll (kernels/distance_rolling.h).
+    static constexpr std::uint32_t rolls_from = 192;
     using Register = __m256i;
     using Shift = __m128i;
     static constexpr bool has_signed_shift = false;
     static constexpr bool has_shift_each = true;
     static constexpr bool has_quick_shift = true;
     static constexpr bool has_minimum_64 = false;
+    static constexpr bool has_mask_tests = false;
     static constexpr bool has_rounding_multiply_16 = true;
     static constexpr bool packs_factors = false;
 

@@ -17,12 +17,15 @@ struct LanesAvx512 {
     static constexpr std::uint32_t singles_together = 6;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 3;
+    // Parts of so many constraints roll (kernels/distance_rolling.h).
+    static constexpr std::uint32_t rolls_from = 192;
     using Register = __m512i;
     using Shift = __m128i;
     static constexpr bool has_signed_shift = true;
     static constexpr bool has_shift_each = true;
     static constexpr bool has_quick_shift = true;
     static constexpr bool has_minimum_64 = true;
+    static constexpr bool has_mask_tests = true;
     static constexpr bool has_rounding_multiply_16 = true;
     static constexpr bool packs_factors = false;
 
@@ -114,9 +117,19 @@ struct LanesAvx512 {
     static Register and_not(Register mask, Register v) { return _mm512_andnot_si512(mask, v); }
     // Bit i: lane i is negative.
     static std::uint32_t sign_bits(Register v) { return _mm512_movepi64_mask(v); }
+    static bool leave(Register a, Register w) {
+        return (_mm512_test_epi64_mask(a, _mm512_set1_epi64(static_cast<long long>(0xffffffff80000000u))) |
+                _mm512_testn_epi32_mask(w, w)) != 0;
+    }
     static bool any(Register v) { return _mm512_test_epi64_mask(v, v) != 0; }
     // Every bit is set.
     static bool all(Register v) { return _mm512_cmpneq_epi64_mask(v, _mm512_set1_epi64(-1)) == 0; }
+
+    // Whether a 64-bit lane is 2^31 or more, or a word zero.
+    static bool any_beyond_or_zero(Register lanes, Register words) {
+        const __mmask8 beyond = _mm512_test_epi64_mask(lanes, _mm512_set1_epi64(~std::int64_t{INT32_MAX}));
+        return (beyond | _mm512_testn_epi32_mask(words, words)) != 0;
+    }
 
     static void leave() { _mm256_zeroupper(); }
 };

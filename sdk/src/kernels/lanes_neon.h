@@ -17,11 +17,13 @@ struct LanesNeon {
     static constexpr std::uint32_t singles_together = 4;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 3;
+    static constexpr std::uint32_t rolls_from = 0; // never
     using Register = uint64x2_t;
     using Shift = int64x2_t; // to the left: negative
     static constexpr bool has_signed_shift = true;
     static constexpr bool has_shift_each = true;
     static constexpr bool has_minimum_64 = false;
+    static constexpr bool has_mask_tests = false;
     static constexpr bool has_rounding_multiply_16 = true;
     static constexpr bool has_quick_shift = true;
     static constexpr bool packs_factors = true;

@@ -17,12 +17,14 @@ struct LanesWasm {
     static constexpr std::uint32_t singles_together = 4;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 3;
+    static constexpr std::uint32_t rolls_from = 0; // never
     using Register = v128_t;
     using Shift = std::uint32_t;
     // There is one, but x86 before AVX-512 has none, and engines make it of several instructions.
     static constexpr bool has_signed_shift = false;
     static constexpr bool has_shift_each = false;
     static constexpr bool has_minimum_64 = false;
+    static constexpr bool has_mask_tests = false;
     // There is one that saturates, of which engines make five instructions for x86.
     static constexpr bool has_rounding_multiply_16 = false;
     static constexpr bool has_quick_shift = false;

@@ -74,9 +74,15 @@ LKS_FORCE_INLINE auto seed_lanes(const Each<typename L::Register, n>& segment,
     }
 }
 
-// 1/√m: fixed/projection_reciprocal_sqrt.h.
-template <typename L, std::uint32_t n>
-LKS_FORCE_INLINE auto reciprocal_sqrt_lanes(const Each<Numbers<L>, n>& m) {
+// Nothing else is to be done meanwhile.
+struct NothingElse {
+    LKS_FORCE_INLINE void operator()(int) const {}
+};
+
+// 1/√m: fixed/projection_reciprocal_sqrt.h. Its steps wait for each other; meanwhile(0), (1) and (2) are
+// written between them.
+template <typename L, std::uint32_t n, typename Meanwhile = NothingElse>
+LKS_FORCE_INLINE auto reciprocal_sqrt_lanes(const Each<Numbers<L>, n>& m, const Meanwhile& meanwhile = {}) {
     using I = std::uint32_t;
     using F = FactorsOf<L>;
     // Aligned, with the leading bit replaced by the octave: m where its top bit is set, else 2·m − 2^31.
@@ -86,7 +92,9 @@ LKS_FORCE_INLINE auto reciprocal_sqrt_lanes(const Each<Numbers<L>, n>& m) {
     const auto segment = of_each<n>([&](I i) { return L::template shift_right_32<29>(aligned[i]); });
     const auto high_t = of_each<n>(
         [&](I i) { return L::exclusive_or(L::template shift_left_32<3>(aligned[i]), L::set_32(INT32_MIN)); });
+    meanwhile(0);
     const auto y0 = seed_lanes<L, n>(segment, high_t);
+    meanwhile(1);
     const auto squared = of_each<n>([&](I i) { return L::multiply_low_32(y0[i], y0[i]); });
     const auto products =
         of_each<n>([&](I i) { return F::multiply_unsigned(m[i].factors, F::of_words(squared[i])); });
@@ -94,6 +102,7 @@ LKS_FORCE_INLINE auto reciprocal_sqrt_lanes(const Each<Numbers<L>, n>& m) {
     const auto e = of_each<n>([&](I i) { return L::subtract_32(product[i], L::set_32(1 << 30)); });
     const auto half_e = of_each<n>([&](I i) { return L::template shift_right_32_signed<1>(e[i]); });
     const auto step = of_each<n>([&](I i) { return L::multiply_low_32(y0[i], half_e[i]); });
+    meanwhile(2);
     const auto wide = of_each<n>([&](I i) { return L::template shift_left_32<15>(y0[i]); });
     const auto rounded = of_each<n>([&](I i) { return L::add_32(step[i], L::set_32(1 << 14)); });
     const auto taken = of_each<n>([&](I i) { return L::template shift_right_32_signed<15>(rounded[i]); });

@@ -113,6 +113,14 @@ public:
     LKS_FORCE_INLINE static Factors<L> unlifted(const Factors<L>& lifted) {
         return F::less(lifted, F::constant(direction_one));
     }
+    // Whether a number was too large, or one of these words is zero.
+    LKS_FORCE_INLINE bool leaves_or_vanishes(R beyond, R words) const {
+        if constexpr (L::has_mask_tests) {
+            return L::any_beyond_or_zero(beyond, words);
+        } else {
+            return leaves(beyond, L::equal_32(words, L::set_32(0)));
+        }
+    }
     // Whether a number was too large, or the sign bit of one of these words is set.
     LKS_FORCE_INLINE bool leaves(R beyond, R words) const {
         if constexpr (L::has_quick_shift) {

@@ -17,11 +17,13 @@ struct TwiceLanes {
     static constexpr bool has_signed_shift = L::has_signed_shift;
     static constexpr bool has_shift_each = L::has_shift_each;
     static constexpr bool has_minimum_64 = false;
+    static constexpr bool has_mask_tests = false;
     static constexpr bool has_rounding_multiply_16 = L::has_rounding_multiply_16;
     static constexpr bool has_quick_shift = L::has_quick_shift;
     static constexpr bool packs_factors = true;
     static_assert(L::packs_factors);
 
+    static constexpr std::uint32_t rolls_from = L::rolls_from;
     struct Register {
         typename L::Register a, b;
     };

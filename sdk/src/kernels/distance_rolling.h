@@ -1,0 +1,97 @@
+// Groups of runs that roll: between the steps of one's square root, which wait for each other, the
+// differences of the group behind it are found and the group before it moves.
+//
+// In stages (kernels/distance_lanes.h) groups keep in memory what the next stage needs. Here most of it stays
+// in registers. That pays where many groups follow each other: the first and the last have nobody to share
+// their time with.
+#pragma once
+
+#include <algorithm>
+
+#include "kernels/distance_groups.h"
+
+namespace lks {
+namespace {
+
+template <typename L, typename Groups, typename Stage>
+class Rolling {
+public:
+    Rolling(const Groups& groups, const Stage& stages) : groups_(groups), stages_(stages) {}
+
+    template <typename Runs>
+    LKS_FORCE_INLINE void project(Runs& runs) {
+        RunAccess<L> at;
+        if (!runs.take_one(at)) {
+            return;
+        }
+        begin(at);
+        while (runs.take_one(at)) {
+            roll_through(runs, at);
+        }
+        // Nobody is behind the last one: its own differences again.
+        roll_through(runs, now_->at);
+        settle(*before_);
+    }
+
+private:
+    // Before the first one it moves itself, by nothing.
+    void begin(const RunAccess<L>& at) {
+        now_->at = before_->at = at;
+        groups_.begin(*now_, sums_);
+        now_->apart = is_apart(*now_);
+        std::copy_n(now_->staged.d, 3, before_->staged.d);
+        f_ = FactorsOf<L>::none();
+        before_->apart = false;
+    }
+
+    // A group and those that follow it in its run, until one is to move apart. There is no call among them:
+    // compilers would keep in memory what lives longer than a call.
+    template <typename Runs>
+    LKS_NEVER_INLINE void roll_through(Runs& runs, RunAccess<L> at) {
+        if (before_->apart) {
+            settle(*before_);
+            f_ = FactorsOf<L>::none();
+        }
+        const Groups groups = groups_; // so that what is stored can't be thought to change it
+        RollingGroup<L>* before = before_;
+        RollingGroup<L>* now = now_;
+        RollingGroup<L>* next = next_;
+        auto sums = sums_;
+        Factors<L> f = f_;
+        do {
+            next->at = at;
+            groups.roll(*before, *now, *next, sums, f);
+            next->apart = is_apart(*next);
+            RollingGroup<L>* const free = before;
+            before = now;
+            now = next;
+            next = free;
+        } while (!before->apart && runs.take_more(at));
+        before_ = before;
+        now_ = now;
+        next_ = next;
+        sums_ = sums;
+        f_ = f;
+    }
+
+    LKS_FORCE_INLINE bool is_apart(const RollingGroup<L>& group) const {
+        return group.staged.plain || (stages_.may_differ(group.at) && !groups_.alike(group.at));
+    }
+
+    LKS_NEVER_INLINE void settle(RollingGroup<L>& group) {
+        group.staged.f = f_;
+        stages_.move_apart(group.at, group.staged);
+    }
+
+    const Groups& groups_;
+    const Stage& stages_;
+    RollingGroup<L> slots_[3];
+    RollingGroup<L>* before_ = &slots_[0];
+    RollingGroup<L>* now_ = &slots_[1];
+    RollingGroup<L>* next_ = &slots_[2];
+    typename Groups::OfDifferences sums_; // of the group whose turn it is
+    Factors<L> f_;                        // of the one before
+};
+
+} // namespace
+} // namespace lks
