@@ -42,12 +42,8 @@ private:
 };
 
 // Where lanes shift by counts of their own nobody asks for it.
-struct NoOctave {
-    explicit NoOctave(int) {}
-};
-
 template <typename L>
-using OctaveOf = std::conditional_t<L::has_shift_each, NoOctave, Octave<L>>;
+using OctaveOf = std::conditional_t<L::has_shift_each, Needless, Octave<L>>;
 
 // Of a group's squared lengths u.
 template <typename L>

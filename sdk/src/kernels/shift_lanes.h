@@ -5,11 +5,18 @@
 // place (L::has_quick_shift).
 #pragma once
 
+#include <type_traits>
+
 #include "fixed/formats.h"
 #include "kernels/factors.h"
 
 namespace lks {
 namespace {
+
+// In place of constants that an instruction set has no use for: what is made for each call takes its time.
+struct Needless {
+    explicit Needless(int) {}
+};
 
 // value · 2^-count with its sign, rounded down after `rounding` was added; |value| < 2^62. Where there is no
 // such shift the value is made positive, and back.
@@ -19,15 +26,14 @@ class SignedShift {
 
 public:
     explicit SignedShift(int count, std::int64_t rounding = 0)
-        : count_(L::make_shift(count)), before_(L::set(rounding + lift)), after_(L::set(lift >> count)),
-          after_low_(FactorsOf<L>::constant(lift >> count)) {}
+        : count_(L::make_shift(count)), before_(L::set(rounding + lift)), after_(count) {}
 
     LKS_FORCE_INLINE R operator()(R value) const {
         const R lifted = L::add(value, before_);
         if constexpr (L::has_signed_shift) {
             return L::shift_right_signed(lifted, count_);
         } else {
-            return L::subtract(L::shift_right(lifted, count_), after_);
+            return L::subtract(L::shift_right(lifted, count_), after_.lanes);
         }
     }
     LKS_FORCE_INLINE Group<L> operator()(const Group<L>& values) const {
@@ -40,17 +46,23 @@ public:
             using F = FactorsOf<L>;
             return F::less(F::low({L::shift_right(L::add(values.a, before_), count_),
                                    L::shift_right(L::add(values.b, before_), count_)}),
-                           after_low_);
+                           after_.low);
         }
     }
 
 private:
     static constexpr std::int64_t lift = L::has_signed_shift ? 0 : std::int64_t{1} << 62;
 
+    // What the shift makes of it.
+    struct Lift {
+        explicit Lift(int count) : lanes(L::set(lift >> count)), low(FactorsOf<L>::constant(lift >> count)) {}
+        R lanes;
+        R low;
+    };
+
     typename L::Shift count_;
     R before_;
-    R after_;
-    R after_low_;
+    std::conditional_t<L::has_signed_shift, Needless, Lift> after_;
 };
 
 // The same to the nearest, for counts from 31 on and values within ±2^61.
@@ -60,25 +72,28 @@ class GainShift {
     using F = FactorsOf<L>;
 
 public:
-    explicit GainShift(int count)
-        : whole_(count, std::int64_t{1} << (count - 1)), rest_(L::make_shift(count - 31)),
-          rounding_(L::set(std::int64_t{1} << (count - 1))) {}
+    explicit GainShift(int count) : shift_(count) {}
 
-    LKS_FORCE_INLINE Factors<L> factors(const Group<L>& values) const {
-        if constexpr (L::has_quick_shift) {
-            return whole_.factors(values);
-        } else {
-            return L::shift_right_32_signed(
-                F::low({L::template shift_right<31>(L::add(values.a, rounding_)),
-                        L::template shift_right<31>(L::add(values.b, rounding_))}),
-                rest_);
-        }
-    }
+    LKS_FORCE_INLINE Factors<L> factors(const Group<L>& values) const { return shift_.factors(values); }
 
 private:
-    SignedShift<L> whole_;
-    typename L::Shift rest_;
-    R rounding_;
+    struct Whole : SignedShift<L> {
+        explicit Whole(int count) : SignedShift<L>(count, std::int64_t{1} << (count - 1)) {}
+    };
+    // By 31 in 64-bit lanes, and the rest in words.
+    struct InTwo {
+        explicit InTwo(int count)
+            : rest(L::make_shift(count - 31)), rounding(L::set(std::int64_t{1} << (count - 1))) {}
+        LKS_FORCE_INLINE Factors<L> factors(const Group<L>& values) const {
+            return L::shift_right_32_signed(F::low({L::template shift_right<31>(L::add(values.a, rounding)),
+                                                    L::template shift_right<31>(L::add(values.b, rounding))}),
+                                            rest);
+        }
+        typename L::Shift rest;
+        R rounding;
+    };
+
+    std::conditional_t<L::has_quick_shift, Whole, InTwo> shift_;
 };
 
 // Numbers of 64 bits to 32 bits in units of 2^count, 20 .. 30, to the nearest and within ±2^30: lifted, that
@@ -92,8 +107,7 @@ public:
     // Half a unit to round, and what makes 2^30 units positive.
     explicit Narrowing(int count)
         : bias_(L::set((std::int64_t{1} << (count - 1)) + (std::int64_t{1} << (count + 30)))),
-          count_(L::make_shift(count)), power_(L::set_32(1 << (32 - count))),
-          highest_(L::set_32((1 << (count - 1)) - 1)) {}
+          count_(L::make_shift(count)), product_(count) {}
 
     // `beyond` starts as zero and collects what leaves() needs.
     LKS_FORCE_INLINE Factors<L> operator()(const Group<L>& wide, R& beyond) const {
@@ -106,8 +120,8 @@ public:
             const R high = F::high(biased);
             beyond = L::bit_or(beyond, high);
             // Of the low half 15 bits count, which have room for the power.
-            const R low = L::multiply_low_32(L::template shift_right_32<17>(F::low(biased)), power_);
-            return L::add_32(L::multiply_low_32(high, power_), L::template shift_right_32<15>(low));
+            const R low = L::multiply_low_32(L::template shift_right_32<17>(F::low(biased)), product_.power);
+            return L::add_32(L::multiply_low_32(high, product_.power), L::template shift_right_32<15>(low));
         }
     }
     LKS_FORCE_INLINE static Factors<L> unlifted(const Factors<L>& lifted) {
@@ -127,15 +141,23 @@ public:
             return L::any(
                 L::bit_or(L::template shift_right_32<31>(words), L::template shift_right<31>(beyond)));
         } else {
-            return L::any_negative_32(L::bit_or(L::bit_or(words, beyond), L::subtract_32(highest_, beyond)));
+            return L::any_negative_32(
+                L::bit_or(L::bit_or(words, beyond), L::subtract_32(product_.highest, beyond)));
         }
     }
 
 private:
+    // Of a shift by multiplication.
+    struct Product {
+        explicit Product(int count)
+            : power(L::set_32(1 << (32 - count))), highest(L::set_32((1 << (count - 1)) - 1)) {}
+        R power;
+        R highest;
+    };
+
     R bias_;
     typename L::Shift count_;
-    R power_;
-    R highest_;
+    std::conditional_t<L::has_quick_shift, Needless, Product> product_;
 };
 
 // The high halves of u·2^count, for counts from 2 to 30.
