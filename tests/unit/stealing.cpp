@@ -57,7 +57,7 @@ const lks::Kernels& dawdling() {
             dawdle();
             return prompt().beyond_tether(task, first, count);
         },
-        prompt().measure_chain,
+        prompt().chain,
         prompt().hash_update};
     return kernels;
 }

@@ -8,6 +8,74 @@
 #include "kernels/measure_segment.h"
 
 namespace lks {
+namespace {
+
+constexpr std::int64_t low_30 = direction_one - 1;
+
+// a·b / 2^31, rounded down.
+std::int64_t share_31(std::int64_t a, std::uint32_t b) {
+    return fixed::multiply_signed(4 * a, std::int64_t{b} << 31).hi;
+}
+
+// Rarely not: one comparison that is foretold is cheaper than two and two choices.
+bool within(std::int64_t value, std::int64_t limit) {
+    return static_cast<std::uint64_t>(value) + static_cast<std::uint64_t>(limit) <=
+           2 * static_cast<std::uint64_t>(limit);
+}
+
+bool within(const fixed::Vec3& v, std::int64_t limit) {
+    return within(v.x, limit) && within(v.y, limit) && within(v.z, limit);
+}
+
+std::int64_t bounded(std::int64_t value, std::int64_t limit) {
+    return within(value, limit) ? value : std::clamp(value, -limit, limit);
+}
+
+template <typename Arrays>
+fixed::Vec3 vector_at(const Arrays& arrays, std::uint32_t i) {
+    return {arrays[0][i], arrays[1][i], arrays[2][i]};
+}
+
+void store(std::int64_t* const (&arrays)[3], std::uint32_t i, const fixed::Vec3& v) {
+    arrays[0][i] = v.x;
+    arrays[1][i] = v.y;
+    arrays[2][i] = v.z;
+}
+
+// Of its low halves.
+fixed::Vec3 half_direction(const fixed::Vec3& v) {
+    return {static_cast<std::int32_t>(v.x) >> 1, static_cast<std::int32_t>(v.y) >> 1,
+            static_cast<std::int32_t>(v.z) >> 1};
+}
+
+std::int64_t direction_share(std::int64_t value, std::int64_t direction) {
+    return fixed::multiply_shift(value, static_cast<std::int32_t>(direction), direction_fraction_bits);
+}
+
+// v less what is along t, which is half the sum of two directions.
+fixed::Vec3 across_tangent(const fixed::Vec3& t, const fixed::Vec3& v) {
+    const auto squared = static_cast<std::uint64_t>(t.x * t.x + t.y * t.y + t.z * t.z);
+    if (squared < least_tangent_squared) {
+        return v;
+    }
+    const int up = std::countl_zero(squared) >> 1;
+    const std::int64_t y_31 =
+        fixed::reciprocal_sqrt_mantissa(static_cast<std::uint32_t>(squared << (2 * up) >> 32));
+    const std::int64_t y = y_31 - (y_31 >> 31);
+    const fixed::Vec3 n{t.x * y >> (32 - up), t.y * y >> (32 - up), t.z * y >> (32 - up)};
+    const std::int64_t high = (v.x >> direction_fraction_bits) * n.x +
+                              (v.y >> direction_fraction_bits) * n.y + (v.z >> direction_fraction_bits) * n.z;
+    const std::int64_t low = (v.x & low_30) * n.x + (v.y & low_30) * n.y + (v.z & low_30) * n.z;
+    const std::int64_t along = high + (low >> direction_fraction_bits);
+    // A component may be one.
+    const auto left = [along](std::int64_t from, std::int64_t direction) {
+        return from - (along >> direction_fraction_bits) * direction -
+               ((along & low_30) * direction >> direction_fraction_bits);
+    };
+    return {left(v.x, n.x), left(v.y, n.y), left(v.z, n.z)};
+}
+
+} // namespace
 
 void measure_segments_scalar(ChainSegments& segments, std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count; ++i) {
@@ -27,21 +95,203 @@ void measure_segments_scalar(ChainSegments& segments, std::uint32_t first, std::
 }
 
 void measure_turns_scalar(ChainSegments& segments, std::uint32_t first, std::uint32_t count) {
-    constexpr std::uint64_t two = std::uint64_t{2} << cosine_fraction_bits;
+    // So that the upper 32 bits of 62 are below 2^32.
+    constexpr std::uint64_t below_two = (std::uint64_t{2} << cosine_fraction_bits) - (std::uint64_t{1} << 32);
     for (std::uint32_t i = first; i < first + count; ++i) {
         std::uint64_t squared = 0;
+        std::int32_t next = 0;
         for (const auto& axis : segments.directions) {
-            const std::int64_t d = std::int64_t{static_cast<std::int32_t>(axis[i])} -
-                                   std::int64_t{static_cast<std::int32_t>(axis[i + 1])};
+            const auto b = static_cast<std::int32_t>(axis[i + 1]);
+            const std::int64_t d = std::int64_t{static_cast<std::int32_t>(axis[i])} - std::int64_t{b};
             squared += static_cast<std::uint64_t>(d * d);
+            next |= b;
         }
-        segments.versines[i] = static_cast<std::int64_t>(std::min(squared >> 1, two));
+        segments.versines[i] = segments.lengths[i] == 0 || next == 0
+                                   ? std::int64_t{1} << cosine_fraction_bits
+                                   : static_cast<std::int64_t>(std::min(squared >> 1, below_two));
     }
+}
+
+bool measure_changes_scalar(ChainSegments& segments, std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        const std::int64_t length = segments.lengths[i];
+        const std::int64_t change = segments.rest_lengths[i] - length;
+        if (change < -segments.slacks[i]) {
+            return false;
+        }
+        const bool small = change <= length && length <= substep_motion_limit; // it is not below −length
+        const std::int64_t most = std::min(length, substep_motion_limit);
+        segments.changes[i] = (small ? change : std::clamp(change, -most, most)) >> side_shift;
+    }
+    return true;
+}
+
+void solve_rows_scalar(ChainRows& rows, std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        const std::int64_t product = fixed::multiply_signed(2 * rows.sides[i], rows.ratios[i] << 32).hi;
+        const int up = static_cast<int>(rows.shifts[i]) + side_shift - rows.exponent;
+        if (up >= 0) {
+            const std::int64_t limit = multiplier_limit >> up;
+            rows.multipliers[i] = bounded(product, limit) * (std::int64_t{1} << up);
+        } else {
+            rows.multipliers[i] = bounded(product >> -up, multiplier_limit);
+        }
+    }
+}
+
+void move_chain_scalar(ChainMoves& moves, std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        const std::int64_t weight = std::int64_t{moves.near.weights[i]} << 32;
+        const int up = moves.exponent - 1 - static_cast<int>(moves.near.weight_shifts[i]);
+        std::int64_t moved[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::int64_t push = moves.pushes[axis][i] - moves.pushes[axis][i + 1];
+            moved[axis] = fixed::multiply_signed(4 * push, weight).hi;
+        }
+        if (up >= 0) {
+            const std::int64_t limit = substep_motion_limit >> up;
+            for (int axis = 0; axis < 3; ++axis) {
+                moves.movements[axis][i] = bounded(moved[axis], limit) * (std::int64_t{1} << up);
+            }
+        } else {
+            const std::int64_t half = std::int64_t{1} << (-up - 1);
+            for (int axis = 0; axis < 3; ++axis) {
+                moves.movements[axis][i] = bounded((moved[axis] + half) >> -up, substep_motion_limit);
+            }
+        }
+    }
+}
+
+void cross_particles_scalar(ChainAcross& task, std::uint32_t first, std::uint32_t count) {
+    const fixed::Vec3 before{(task.directions[0] - 1)[first], (task.directions[1] - 1)[first],
+                             (task.directions[2] - 1)[first]};
+    fixed::Vec3 near = half_direction(before);
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        const fixed::Vec3 far = half_direction(vector_at(task.directions, i));
+        const fixed::Vec3 movement = vector_at(task.movements, i);
+        const fixed::Vec3 across = across_tangent(near + far, vector_at(task.changes, i) - movement);
+        store(task.movements, i, movement + across);
+        store(task.changes, i, across);
+        near = far;
+    }
+}
+
+bool leaves_off_scalar(const ChainAcross& task, std::uint32_t first, std::uint32_t count) {
+    fixed::Vec3 movement = vector_at(task.movements, first - 1);
+    fixed::Vec3 change = vector_at(task.changes, first - 1);
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        const fixed::Vec3 next_movement = vector_at(task.movements, i);
+        const fixed::Vec3 next_change = vector_at(task.changes, i);
+        const std::int64_t rest = task.rest_lengths[i - 1];
+        if (!within(next_movement - movement, rest >> turn_shift)) {
+            return true;
+        }
+        const fixed::Vec3 changed = next_change - change;
+        if (!within(changed, rest >> (error_shift + 1))) { // or else in any direction
+            const fixed::Vec3 n = vector_at(task.directions, i - 1);
+            const std::int64_t along = direction_share(changed.x, n.x) + direction_share(changed.y, n.y) +
+                                       direction_share(changed.z, n.z);
+            if (!within(along, rest >> error_shift)) {
+                return true;
+            }
+        }
+        movement = next_movement;
+        change = next_change;
+    }
+    return false;
+}
+
+bool stretch_chain_scalar(ChainSegments& segments) {
+    return measure_changes_scalar(segments, 0, segments.count);
+}
+
+void solve_chain_scalar(ChainRows& rows) {
+    solve_rows_scalar(rows, 0, rows.count);
 }
 
 void measure_chain_scalar(ChainSegments& segments) {
     measure_segments_scalar(segments, 0, segments.count);
     measure_turns_scalar(segments, 0, segments.count);
+}
+
+void turn_chain_scalar(ChainRows& rows) {
+    for (std::uint32_t i = 0; i < rows.count; ++i) {
+        // s² = 2v − v², in 63 bits; then times w.
+        const auto v = static_cast<std::uint64_t>(rows.versines[i]);
+        const std::uint64_t s = (2 * v - (v >> 30) * (v >> 30)) << (chain_share_bits - cosine_fraction_bits);
+        const std::uint64_t weight = rows.near.weights[i + 1];
+        const std::uint64_t product = fixed::multiply_unsigned(s, weight << 32).hi;
+        rows.turns[i] =
+            static_cast<std::int64_t>(rows.softness + (product << 1 >> rows.near.weight_shifts[i + 1]));
+    }
+}
+
+void divide_chain_scalar(ChainRows& rows) {
+    for (std::uint32_t i = rows.count; i-- > 0;) {
+        const auto scale = static_cast<std::uint64_t>(rows.scales[i]);
+        const auto behind = static_cast<std::uint64_t>(rows.scales[i + 1]);
+        const auto up = static_cast<int>(rows.shifts[i]);
+        // 2^61 .. 2^63
+        const std::uint64_t ratio =
+            (behind >> 31) * fixed::reciprocal_mantissa(static_cast<std::uint32_t>(scale >> 31));
+        rows.ratios[i] = static_cast<std::int64_t>(ratio >> 32);
+        const int down = static_cast<int>(rows.near.weight_shifts[i]) + 3 - up;
+        rows.shares[i] = static_cast<std::int64_t>(rows.near.weights[i] * (ratio >> 31) >> down);
+        const auto x = static_cast<std::uint64_t>(rows.shares[i + 1]);
+        const std::uint64_t v = static_cast<std::uint64_t>(rows.versines[i]) >> 29;
+        rows.carried[i + 1] = static_cast<std::int64_t>((x - fixed::multiply_unsigned(2 * x, v << 32).hi)
+                                                        << (carried_bits - chain_x_bits));
+    }
+}
+
+void push_chain_scalar(ChainMoves& moves) {
+    for (std::uint32_t i = 0; i < moves.count; ++i) {
+        const std::int64_t multiplier = 4 * moves.multipliers[i];
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto n = static_cast<std::int32_t>(moves.directions[axis][i]);
+            moves.pushes[axis][i + 1] = fixed::multiply_signed(multiplier, n * (std::int64_t{1} << 32)).hi;
+        }
+    }
+    move_chain_scalar(moves, 0, moves.count);
+}
+
+bool stiffen_chain_scalar(ChainTensions& tensions) {
+    std::int64_t any = 0;
+    for (std::uint32_t i = 0; i < tensions.count; ++i) {
+        const std::uint64_t tension = fixed::magnitude(tensions.tensions[i]);
+        const auto kappa = static_cast<std::int64_t>(
+            fixed::multiply_unsigned(tension, std::uint64_t{tensions.stiffness[i]} << 32).hi);
+        const std::int64_t beyond = std::max<std::int64_t>(kappa - tensions.stable, 0);
+        any |= beyond;
+        tensions.near[i] = share_31(beyond, tensions.near_shares[i]);
+        tensions.far[i] = share_31(beyond, tensions.far_shares[i]);
+    }
+    return any != 0;
+}
+
+void share_chain_scalar(ChainShares& shares) {
+    for (std::uint32_t i = 0; i < shares.count; ++i) {
+        const auto whole = static_cast<std::uint64_t>(shares.scales[i]);
+        const auto part = static_cast<std::uint64_t>(shares.parts[i]);
+        const int up = std::countl_zero(static_cast<std::uint32_t>(part >> 33) | 1) - 1;
+        const std::uint64_t scale = whole >> 32;
+        const std::uint64_t mantissa = part << up >> 32 | std::uint64_t{1} << 31;
+        // Both by one reciprocal, of their product: 2^62 / scale is that of the product times the mantissa.
+        const std::uint64_t product = scale * mantissa;
+        const int double_up = std::countl_zero(product);
+        const std::uint64_t y =
+            std::uint64_t{fixed::reciprocal_mantissa(static_cast<std::uint32_t>(product << double_up >> 32))}
+            << double_up;
+        const std::uint64_t reciprocal = y - (y >> 32);
+        shares.takes[i] = static_cast<std::int64_t>(((whole - part) >> 32) * (mantissa * reciprocal >> 32));
+        shares.gives[i] = static_cast<std::int64_t>((static_cast<std::uint64_t>(shares.fars[i]) << up >> 32) *
+                                                    (scale * reciprocal >> 32));
+    }
+}
+
+bool cross_chain_scalar(ChainAcross& task) {
+    cross_particles_scalar(task, 0, task.count);
+    return leaves_off_scalar(task, 1, task.count - 1);
 }
 
 } // namespace lks

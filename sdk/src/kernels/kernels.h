@@ -21,7 +21,7 @@ struct Kernels {
     std::uint64_t (*near_plane)(const PlaneTask& task, std::uint32_t first, std::uint32_t count);
     // Bit i: particle first + i may be beyond its tether; count ≤ 64.
     std::uint64_t (*beyond_tether)(const TetherTask& task, std::uint32_t first, std::uint32_t count);
-    void (*measure_chain)(ChainSegments& segments);
+    ChainKernels chain;
     // XXH3_64bits_update.
     void (*hash_update)(void* state, const void* bytes, std::size_t size);
 };

@@ -13,14 +13,14 @@
 
 namespace lks {
 
-const Kernels kernels_avx2{LKS_SIMD_AVX2,
-                           leaving<LanesAvx2, project_lanes<LanesAvx2>>,
-                           leaving<LanesAvx2, predict_lanes<LanesAvx2>>,
-                           leaving<LanesAvx2, near_box_lanes<LanesAvx2>>,
-                           leaving<LanesAvx2, near_plane_lanes<LanesAvx2>>,
-                           leaving<LanesAvx2, beyond_tether_lanes<LanesAvx2>>,
-                           leaving<LanesAvx2, measure_chain_lanes<LanesAvx2>, ChainSegments&>,
-                           leaving<LanesAvx2, hash_update>};
+constinit const Kernels kernels_avx2{LKS_SIMD_AVX2,
+                                     leaving<LanesAvx2, project_lanes<LanesAvx2>>,
+                                     leaving<LanesAvx2, predict_lanes<LanesAvx2>>,
+                                     leaving<LanesAvx2, near_box_lanes<LanesAvx2>>,
+                                     leaving<LanesAvx2, near_plane_lanes<LanesAvx2>>,
+                                     leaving<LanesAvx2, beyond_tether_lanes<LanesAvx2>>,
+                                     leaving_chain_lanes<LanesAvx2>(),
+                                     leaving<LanesAvx2, hash_update>};
 
 } // namespace lks
 

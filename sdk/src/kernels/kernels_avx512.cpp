@@ -31,14 +31,14 @@ void project_by_length(const DistanceTask& task) {
 
 } // namespace
 
-const Kernels kernels_avx512{LKS_SIMD_AVX512,
-                             project_by_length,
-                             leaving<LanesAvx512, predict_lanes<LanesAvx512, LanesAvx2>>,
-                             leaving<LanesAvx512, near_box_lanes<LanesAvx512>>,
-                             leaving<LanesAvx512, near_plane_lanes<LanesAvx512>>,
-                             leaving<LanesAvx512, beyond_tether_lanes<LanesAvx512>>,
-                             leaving<LanesAvx512, measure_chain_lanes<LanesAvx512>, ChainSegments&>,
-                             leaving<LanesAvx512, hash_update>};
+constinit const Kernels kernels_avx512{LKS_SIMD_AVX512,
+                                       project_by_length,
+                                       leaving<LanesAvx512, predict_lanes<LanesAvx512, LanesAvx2>>,
+                                       leaving<LanesAvx512, near_box_lanes<LanesAvx512>>,
+                                       leaving<LanesAvx512, near_plane_lanes<LanesAvx512>>,
+                                       leaving<LanesAvx512, beyond_tether_lanes<LanesAvx512>>,
+                                       leaving_chain_lanes<LanesAvx512>(),
+                                       leaving<LanesAvx512, hash_update>};
 
 } // namespace lks
 

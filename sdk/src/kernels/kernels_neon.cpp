@@ -12,14 +12,14 @@
 
 namespace lks {
 
-const Kernels kernels_neon{LKS_SIMD_NEON,
-                           project_lanes<LanesNeon>,
-                           predict_lanes<LanesNeon>,
-                           near_box_lanes<LanesNeon>,
-                           near_plane_lanes<LanesNeon>,
-                           beyond_tether_lanes<LanesNeon>,
-                           measure_chain_lanes<LanesNeon>,
-                           hash_update};
+constinit const Kernels kernels_neon{LKS_SIMD_NEON,
+                                     project_lanes<LanesNeon>,
+                                     predict_lanes<LanesNeon>,
+                                     near_box_lanes<LanesNeon>,
+                                     near_plane_lanes<LanesNeon>,
+                                     beyond_tether_lanes<LanesNeon>,
+                                     chain_lanes<LanesNeon>(),
+                                     hash_update};
 
 } // namespace lks
 

@@ -12,14 +12,14 @@
 
 namespace lks {
 
-const Kernels kernels_sse41{LKS_SIMD_SSE41,
-                            project_lanes<LanesSse41>,
-                            predict_lanes<LanesSse41>,
-                            near_box_lanes<LanesSse41>,
-                            near_plane_lanes<LanesSse41>,
-                            beyond_tether_lanes<LanesSse41>,
-                            measure_chain_lanes<LanesSse41>,
-                            hash_update};
+constinit const Kernels kernels_sse41{LKS_SIMD_SSE41,
+                                      project_lanes<LanesSse41>,
+                                      predict_lanes<LanesSse41>,
+                                      near_box_lanes<LanesSse41>,
+                                      near_plane_lanes<LanesSse41>,
+                                      beyond_tether_lanes<LanesSse41>,
+                                      chain_lanes<LanesSse41>(),
+                                      hash_update};
 
 } // namespace lks
 

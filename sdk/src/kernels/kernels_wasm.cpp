@@ -13,14 +13,14 @@
 
 namespace lks {
 
-const Kernels kernels_wasm{LKS_SIMD_WASM,
-                           project_lanes<TwiceLanes<LanesWasm>>,
-                           predict_lanes<LanesWasm>,
-                           near_box_lanes<LanesWasm>,
-                           near_plane_lanes<LanesWasm>,
-                           beyond_tether_lanes<LanesWasm>,
-                           measure_chain_lanes<LanesWasm>,
-                           hash_update};
+constinit const Kernels kernels_wasm{LKS_SIMD_WASM,
+                                     project_lanes<TwiceLanes<LanesWasm>>,
+                                     predict_lanes<LanesWasm>,
+                                     near_box_lanes<LanesWasm>,
+                                     near_plane_lanes<LanesWasm>,
+                                     beyond_tether_lanes<LanesWasm>,
+                                     chain_lanes<LanesWasm>(),
+                                     hash_update};
 
 } // namespace lks
 

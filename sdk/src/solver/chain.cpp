@@ -5,7 +5,6 @@
 
 #include "fixed/formats.h"
 #include "fixed/int128.h"
-#include "fixed/reciprocal_sqrt.h"
 #include "fixed/vector.h"
 #include "kernels/measure_segment.h"
 #include "solver/wrapping.h"
@@ -13,15 +12,10 @@
 namespace lks {
 namespace {
 
-using fixed::Direction;
 using fixed::multiply_shift;
 using fixed::multiply_unsigned;
 using fixed::Vec3;
 
-constexpr std::int64_t cosine_one = std::int64_t{1} << cosine_fraction_bits;
-// κ up to this is stable by itself.
-constexpr std::uint64_t stable_stiffness = unit_one / 4;
-constexpr std::uint64_t greatest_stiffness = std::uint64_t{1} << 60;
 // In every row, so that none is singular between two pins: it yields by 1.5e-11 of a multiplier.
 constexpr std::uint64_t least_softness = std::uint64_t{1} << (chain_share_bits - 36);
 // From here on a rope bears to be pulled apart by its pins: it is elastic.
@@ -32,36 +26,21 @@ constexpr std::uint64_t rest_one = std::uint64_t{1} << rest_bits;
 constexpr std::uint64_t greatest_rest = std::uint64_t{1} << 62;
 // How much longer than the distance of its pins a piece of rope is taken to be at least.
 constexpr std::uint64_t least_slack = rest_one >> 24;
-// What a multiplier may be raised by for the upper half of its product.
-constexpr std::int64_t multiplier_room = std::int64_t{1} << (64 - chain_share_bits);
-// Where a segment's ends moved against each other by more than 2^-turn_shift of its length, or the second
-// pass changed its length by more than 2^-error_shift, the rope is solved again from where it is then.
-constexpr int turn_shift = 5;
-constexpr int error_shift = 11;
 constexpr int most_solves = 8;
-// Where a rope folds back by more than 176 degrees there is no "along".
-constexpr std::uint32_t least_tangent = direction_one / 1024;
 
-// 2^126 / m where m has its top bit set: 2^62 .. 2^63, with a relative error of 2^-59.
-std::uint64_t reciprocal_of(std::uint64_t m) {
-    const std::uint64_t y = fixed::reciprocal_mantissa(static_cast<std::uint32_t>(m >> 32));
-    // 1 − m·y as a share of 2^93: below 2^63, so that the product's low half has it all.
-    const std::int64_t error = static_cast<std::int64_t>(0 - (m >> 1) * y) >> 32;
-    return (y << 32) + static_cast<std::uint64_t>((error * static_cast<std::int64_t>(y)) >> 29);
+// Of right sides, which are summed up without a look at each within a block.
+constexpr std::int64_t side_limit = std::int64_t{1} << 61;
+// Of the scales that both eliminations are carried with.
+constexpr std::uint64_t scale_one = std::uint64_t{1} << 62;
+constexpr std::uint64_t spread_one = std::uint64_t{1} << 63;
+
+std::uint64_t upper_half(std::uint64_t a, std::uint64_t b) {
+    return multiply_unsigned(a, b).hi;
 }
 
-// a·b / 2^bits, rounded down; 0 < bits < 64. From the halves by hand: compilers keep those of a shifted
-// structure in memory.
-std::uint64_t share_of(std::uint64_t a, std::uint64_t b, int bits) {
-    const fixed::UInt128 product = multiply_unsigned(a, b);
-    return (product.hi << (64 - bits)) + (product.lo >> bits);
-}
-
-// The same, where the result has 63 bits at most.
-std::int64_t share_of(std::int64_t a, std::int64_t b, int bits) {
-    const fixed::Int128 product = fixed::multiply_signed(a, b);
-    return static_cast<std::int64_t>((static_cast<std::uint64_t>(product.hi) << (64 - bits)) +
-                                     (product.lo >> bits));
+// What is carried of a value, the lowest two bits rounded down.
+std::int64_t carry(std::int64_t share, std::int64_t value) {
+    return fixed::multiply_signed(share, value).hi * (std::int64_t{1} << (64 - carried_bits));
 }
 
 // Rounded down. In two parts, of which the upper one is whole: cheaper than a product of 128 bits.
@@ -71,19 +50,25 @@ std::int64_t unit_share(std::uint32_t unit, std::int64_t value) {
     return wrapping_add(upper, (lower * unit) >> unit_fraction_bits);
 }
 
-Vec3 unit_share(std::uint32_t unit, const Vec3& v) {
-    return {unit_share(unit, v.x), unit_share(unit, v.y), unit_share(unit, v.z)};
+// Rarely not: one comparison that is foretold is cheaper than two and two choices.
+bool within(std::int64_t value, std::int64_t limit) {
+    return static_cast<std::uint64_t>(value) + static_cast<std::uint64_t>(limit) <=
+           2 * static_cast<std::uint64_t>(limit);
+}
+
+std::int64_t bounded(std::int64_t value, std::int64_t limit) {
+    return within(value, limit) ? value : std::clamp(value, -limit, limit);
 }
 
 class ChainSolve {
 public:
     ChainSolve(const ChainCoefficients& chain, const FamilyCoefficients& family, const DistanceArrays& arrays,
-               const Kernels& kernels, ChainWork* work, bool torn)
-        : chain_(chain), family_(family), arrays_(arrays), kernels_(kernels), work_(work), torn_(torn),
-          eased_(arrays.multipliers != nullptr && chain.softness != 0),
-          softness_(std::max(chain.softness, least_softness)),
-          count_(static_cast<std::uint32_t>(chain.segments.size())),
-          movement_down_(chain.weight_exponent - chain.multiplier_exponent) {}
+               const Kernels& kernels, std::int64_t* memory, bool torn)
+        : chain_(chain), family_(family), arrays_(arrays), kernels_(kernels), count_(chain.count()),
+          work_(memory, count_), torn_(torn), eased_(arrays.multipliers != nullptr && chain.softness != 0),
+          softness_(std::max(chain.softness, least_softness)) {
+        work_.end(count_);
+    }
 
     // `again`: after itself, in the same substep.
     bool run(bool again) {
@@ -92,19 +77,17 @@ public:
         if (!(simple ? eliminate<true>() : eliminate<false>())) {
             return false;
         }
-        const bool stiff =
-            arrays_.multipliers != nullptr ? substitute<true>(again) : substitute<false>(again);
-        if (!stiff) {
-            each_movement([&](std::uint32_t i, const Vec3& v) { move(i, v); });
+        substitute();
+        if (!stiffen(again)) {
+            push_particles();
+            move_particles();
             return true;
         }
-        each_movement([&](std::uint32_t i, const Vec3& v) { work_[i].movement = v; });
+        push_particles();
         gather();
-        if (chain_.pinned_count != 0) {
-            spread_and_move<true>();
-        } else {
-            spread_and_move<false>();
-        }
+        spread();
+        cross();
+        move_particles();
         return true;
     }
 
@@ -113,133 +96,188 @@ public:
 
 private:
     Vec3 position(std::uint32_t index) const {
-        const std::uint32_t p = chain_.particles[index].particle;
+        const std::uint32_t p = chain_.particles[index];
         return {arrays_.x[p], arrays_.y[p], arrays_.z[p]};
     }
     Vec3 start(std::uint32_t index) const {
-        const std::uint32_t p = chain_.particles[index].particle;
+        const std::uint32_t p = chain_.particles[index];
         return {arrays_.start_x[p], arrays_.start_y[p], arrays_.start_z[p]};
     }
-    // w/R
-    std::uint64_t weight(std::uint32_t index) const {
-        return chain_.particles[index].weight >> chain_.weight_exponent;
+    ChainWeights weights_from(std::uint32_t first) const {
+        return {chain_.weights.data() + first, chain_.weight_shifts.data() + first};
     }
 
-    // Of the row behind the one at hand.
+    // Blocks of segments from the far end to the near one. All but the last begin and end at multiples of
+    // their size.
+    template <typename Use>
+    static void each_block_back(std::uint32_t count, const Use& use) {
+        for (std::uint32_t last = count; last > 0;) {
+            const std::uint32_t first = (last - 1) / chain_block * chain_block;
+            use(first, last - first);
+            last = first;
+        }
+    }
+    // And back.
+    template <typename Use>
+    static void each_block(std::uint32_t count, const Use& use) {
+        for (std::uint32_t first = 0; first < count; first += chain_block) {
+            use(first, std::min(count - first, chain_block));
+        }
+    }
+
+    // Of the rows behind, what the next one needs.
     struct Row {
-        std::uint64_t share;      // x
-        std::uint64_t sum;        // t + σ
-        std::int64_t change;      // its right side
-        std::uint64_t far_weight; // of the particle between them
-        bool directed;
+        std::uint64_t scale;        // q
+        std::uint64_t scale_behind; // of the row behind it
+        std::uint64_t part;         // u, of this row before it was shifted up ...
+        int up;                     // ... by so much
+        std::int64_t share;         // x
+        std::int64_t side;          // b
     };
 
     // The rows from the far end to the near one. False: a segment is torn. `simple`: neither that nor
     // multipliers, damping or two pins need be looked at.
     template <bool simple>
     bool eliminate() {
-        ChainSegments segments;
-        Row behind{0, 0, 0, weight(count_), false};
-        Direction next{};
-        for (std::uint32_t last = count_; last > 0;) {
-            segments.count = std::min(last, chain_block);
-            const std::uint32_t first = last - segments.count;
-            take_points(segments, first);
-            segments.directions[0][segments.count] = next.x;
-            segments.directions[1][segments.count] = next.y;
-            segments.directions[2][segments.count] = next.z;
-            kernels_.measure_chain(segments);
-            if (!eliminate_rows<simple>(segments, first, behind)) {
-                return false;
+        constexpr Row beginning{scale_one, 0, scale_one, 0, 0, 0};
+        Row row = beginning;
+        bool whole = true;
+        taut_ = rest_one;
+        each_block_back(count_, [&](std::uint32_t first, std::uint32_t count) {
+            for (std::uint32_t last = first + count; whole && last > first;) {
+                const std::uint32_t begin = last_pin(first, last);
+                if (chain_.weights[last] == 0) {
+                    row = beginning;
+                }
+                whole = eliminate_block<simple>(begin, last - begin, row);
+                last = begin;
             }
-            next = work_[first].direction;
-            last = first;
+        });
+        return whole;
+    }
+
+    // Of the particles between these, which nothing is carried across, not even a scale; or else the first.
+    std::uint32_t last_pin(std::uint32_t first, std::uint32_t last) const {
+        if (chain_.pinned_within != 0) {
+            for (std::uint32_t i = last - 1; i > first; --i) {
+                if (chain_.weights[i] == 0) {
+                    return i;
+                }
+            }
         }
-        work_[0].carried = 0;
+        return first;
+    }
+
+    template <bool simple>
+    bool eliminate_block(std::uint32_t first, std::uint32_t count, Row& row) {
+        ChainSegments segments;
+        segments.count = count;
+        take_points(segments, first);
+        for (int axis = 0; axis < 3; ++axis) {
+            segments.directions[axis][count] = work_.directions[axis][first + count];
+        }
+        kernels_.chain.measure(segments);
+        segments.rest_lengths = chain_.rest_lengths.data() + first;
+        segments.slacks = chain_.slacks.data() + first;
+        // Kernels read on to the end of a group.
+        std::fill_n(segments.lengths + count, std::min(chain_block - count, chain_padding),
+                    rest_behind_the_end);
+        if (!(simple ? kernels_.chain.stretch(segments) : take_changes(segments, first))) {
+            return false;
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            std::copy_n(segments.directions[axis], count, work_.directions[axis] + first);
+        }
+        ChainRows rows;
+        rows.count = count;
+        rows.near = weights_from(first);
+        rows.softness = softness_;
+        rows.exponent = chain_.multiplier_exponent;
+        rows.versines = segments.versines;
+        rows.scales[count] = static_cast<std::int64_t>(row.scale);
+        rows.shares[count] = row.share;
+        kernels_.chain.turn(rows);
+        scale_rows(rows, first, row);
+        kernels_.chain.divide(rows);
+        row.share = rows.shares[0];
+        std::copy_n(rows.carried + 1, count, work_.carried + first + 1);
+        add_sides(segments, rows, row);
+        kernels_.chain.solve(rows);
+        std::copy_n(rows.multipliers, count, work_.multipliers + first);
         return true;
     }
 
     void take_points(ChainSegments& segments, std::uint32_t first) const {
-        const ChainParticle* const particles = chain_.particles.data() + first;
+        const std::uint32_t* const particles = chain_.particles.data() + first;
         const std::int64_t* const x = arrays_.x;
         const std::int64_t* const y = arrays_.y;
         const std::int64_t* const z = arrays_.z;
         const std::uint32_t count = segments.count;
         for (std::uint32_t i = 0; i <= count; ++i) {
-            const std::uint32_t p = particles[i].particle;
+            const std::uint32_t p = particles[i];
             segments.points[0][i] = x[p];
             segments.points[1][i] = y[p];
             segments.points[2][i] = z[p];
         }
     }
 
-    static Direction direction_of(const ChainSegments& segments, std::uint32_t i) {
-        return {static_cast<std::int32_t>(segments.directions[0][i]),
-                static_cast<std::int32_t>(segments.directions[1][i]),
-                static_cast<std::int32_t>(segments.directions[2][i])};
+    // q and p of each row; q's top bit but one is set.
+    void scale_rows(ChainRows& rows, std::uint32_t first, Row& row) const {
+        const std::uint64_t* const weights = chain_.weight_shares.data() + first;
+        const std::uint64_t softness = softness_;
+        std::uint64_t scale = row.scale;
+        std::uint64_t behind = row.scale_behind;
+        std::uint64_t part = row.part;
+        int up = row.up;
+        for (std::uint32_t i = rows.count; i-- > 0;) {
+            part = (upper_half(static_cast<std::uint64_t>(rows.turns[i]), behind) + part) << up;
+            part = upper_half(weights[i + 1], part);
+            behind = scale;
+            const std::uint64_t next = upper_half(weights[i] + softness, scale) + part;
+            up = std::countl_zero(next) - 1;
+            scale = next << up;
+            rows.scales[i] = static_cast<std::int64_t>(scale);
+            rows.shifts[i] = up;
+        }
+        row.scale = scale;
+        row.scale_behind = behind;
+        row.part = part;
+        row.up = up;
     }
 
-    template <bool simple>
-    bool eliminate_rows(const ChainSegments& segments, std::uint32_t first, Row& behind) {
-        // All by value: what is written to `work_` can't be thought to change it.
-        const int weight_exponent = chain_.weight_exponent;
-        const int multiplier_exponent = chain_.multiplier_exponent;
-        const std::uint64_t softness = softness_;
-        const bool torn = torn_;
-        const ChainSegment* const coefficients = chain_.segments.data() + first;
-        const ChainParticle* const particles = chain_.particles.data() + first;
-        ChainWork* const work = work_ + first;
-        Row row = behind;
-        bool last = first + segments.count == count_;
+    // b of each row.
+    static void add_sides(const ChainSegments& segments, ChainRows& rows, Row& row) {
+        std::int64_t side = row.side;
         for (std::uint32_t i = segments.count; i-- > 0;) {
-            const std::int64_t length = segments.lengths[i];
-            const bool directed = length != 0;
-            std::int64_t rest = coefficients[i].rest_length;
-            if constexpr (!simple) {
-                if (chain_.pinned_count > 1 && row.far_weight == 0) {
-                    taut_ = tautness(first + i);
-                }
-                rest = rest_length(first + i);
-            }
-            // Neither is negative.
-            if ((simple || !torn) && length - rest > coefficients[i].slack) {
-                return false; // torn
-            }
-            std::int64_t change = 0;
-            if (directed) {
-                change = simple ? wanted_length_change(length, rest, substep_motion_limit)
-                                : wanted_change(first + i, rest, {direction_of(segments, i), length});
-            }
-            std::uint64_t sum = row.far_weight + softness;
-            if (!last) {
-                const Turn turn =
-                    directed && row.directed ? turn_by(segments.versines[i]) : Turn{0, cosine_one};
-                // x is below one by the least softness: its product's upper half is the whole shift.
-                sum = multiply_unsigned(row.share << (64 - chain_share_bits),
-                                        row.sum +
-                                            share_of(row.far_weight, turn.sine_squared, cosine_fraction_bits))
-                          .hi +
-                      softness;
-                const std::int64_t carried =
-                    share_of(turn.cosine, static_cast<std::int64_t>(row.share), cosine_fraction_bits);
-                work[i + 1].carried = carried;
-                change = fixed::saturating_add(change, share_of(carried, row.change, chain_share_bits));
-            }
-            last = false;
-            const std::uint64_t near_weight = particles[i].weight >> weight_exponent;
-            const std::uint64_t diagonal = near_weight + sum;
-            const int up = std::countl_zero(diagonal);
-            const std::uint64_t reciprocal = reciprocal_of(diagonal << up);
-            work[i].own = directed ? quotient_of(change, reciprocal, multiplier_exponent - up) : 0;
-            work[i].direction = direction_of(segments, i);
-            row = {multiply_unsigned(near_weight << up, reciprocal).hi, sum, change, near_weight, directed};
+            side = segments.changes[i] + carry(rows.carried[i + 1], side);
+            rows.sides[i] = side;
         }
-        behind = row;
+        row.side = bounded(side, side_limit);
+    }
+
+    // Where there is more to it than lengths. False: a segment is torn.
+    bool take_changes(ChainSegments& segments, std::uint32_t first) {
+        for (std::uint32_t i = segments.count; i-- > 0;) {
+            const std::uint32_t index = first + i;
+            if (chain_.pinned_count > 1 && chain_.weights[index + 1] == 0) {
+                taut_ = tautness(index);
+            }
+            const std::int64_t rest = rest_length(index);
+            const std::int64_t length = segments.lengths[i];
+            // Neither is negative.
+            if (!torn_ && length - rest > chain_.slacks[index]) {
+                return false;
+            }
+            const fixed::Direction along{static_cast<std::int32_t>(segments.directions[0][i]),
+                                         static_cast<std::int32_t>(segments.directions[1][i]),
+                                         static_cast<std::int32_t>(segments.directions[2][i])};
+            segments.changes[i] = wanted_change(index, rest, {along, length}) >> side_shift;
+        }
         return true;
     }
 
     std::int64_t rest_length(std::uint32_t index) const {
-        const std::int64_t rest = chain_.segments[index].rest_length;
+        const std::int64_t rest = chain_.rest_lengths[index];
         return taut_ == rest_one ? rest : multiply_shift(rest, static_cast<std::int64_t>(taut_), rest_bits);
     }
 
@@ -250,13 +288,13 @@ private:
         // In units of which the sum of all segments fits.
         constexpr int down = 16;
         std::uint32_t first = last;
-        auto length = static_cast<std::uint64_t>(chain_.segments[last].rest_length >> down);
-        while (first > 0 && chain_.particles[first].weight != 0) {
+        auto length = static_cast<std::uint64_t>(chain_.rest_lengths[last] >> down);
+        while (first > 0 && chain_.weights[first] != 0) {
             --first;
-            length += static_cast<std::uint64_t>(chain_.segments[first].rest_length >> down);
+            length += static_cast<std::uint64_t>(chain_.rest_lengths[first] >> down);
         }
         fixed::NormalisedVector pins{};
-        if (chain_.particles[first].weight != 0 || chain_.softness > elastic_softness ||
+        if (chain_.weights[first] != 0 || chain_.softness > elastic_softness ||
             !measure_segment(position(last + 1) - position(first), pins)) {
             return rest_one;
         }
@@ -265,26 +303,6 @@ private:
             fixed::divide(fixed::UInt128{0, apart} << rest_bits, std::max<std::uint64_t>(length, 1)).quotient;
         const std::uint64_t ratio = std::min(fixed::saturate_to_uint64(quotient), greatest_rest);
         return std::max(rest_one, ratio + least_slack);
-    }
-
-    // A change over a diagonal, as a multiplier.
-    static std::int64_t quotient_of(std::int64_t change, std::uint64_t reciprocal, int down) {
-        // 2^63 at most.
-        const auto factor = static_cast<std::int64_t>(reciprocal - (reciprocal >> 63));
-        return bounded_multiplier(down >= 0 ? fixed::multiply_signed(change, factor).hi >> down
-                                            : multiply_shift(change, factor, 64 + down));
-    }
-
-    // Between two segments that follow each other, 60 fraction bits.
-    struct Turn {
-        std::int64_t cosine;
-        std::uint64_t sine_squared;
-    };
-
-    static Turn turn_by(std::int64_t versine) {
-        return {cosine_one - versine,
-                share_of(static_cast<std::uint64_t>(versine),
-                         static_cast<std::uint64_t>(2 * cosine_one - versine), cosine_fraction_bits)};
     }
 
     // It may double or close, no more, and by no more than the limit.
@@ -301,18 +319,17 @@ private:
     // a substep.
     std::int64_t wanted_change(std::uint32_t index, std::int64_t rest,
                                const fixed::NormalisedVector& n) const {
-        const ChainSegment& segment = chain_.segments[index];
         const std::int64_t limit =
-            torn_ ? std::min(segment.slack / 2, substep_motion_limit) : substep_motion_limit;
+            torn_ ? std::min(chain_.slacks[index] / 2, substep_motion_limit) : substep_motion_limit;
         std::int64_t change = wanted_length_change(n.length, rest, limit);
         if (family_.damping_share != 0) {
             const Vec3 motion = (position(index + 1) - start(index + 1)) - (position(index) - start(index));
-            const auto bounded = [](std::int64_t v) {
+            const auto within_range = [](std::int64_t v) {
                 return std::clamp(v, -coordinate_limit, coordinate_limit);
             };
             const std::int64_t most = std::min(n.length, limit);
-            const std::int64_t along =
-                fixed::dot(n.direction, Vec3{bounded(motion.x), bounded(motion.y), bounded(motion.z)});
+            const std::int64_t along = fixed::dot(
+                n.direction, Vec3{within_range(motion.x), within_range(motion.y), within_range(motion.z)});
             change = unit_share(family_.error_share, change) -
                      unit_share(family_.damping_share, std::clamp(along, -most, most));
         }
@@ -321,289 +338,223 @@ private:
             const std::int64_t greatest = coordinate_limit >> up;
             const std::int64_t eased =
                 multiply_shift(static_cast<std::int64_t>(chain_.softness),
-                               arrays_.multipliers[segment.constraint], chain_share_bits);
+                               arrays_.multipliers[chain_.constraints[index]], chain_share_bits);
             change -= std::clamp(eased, -greatest, greatest) * (std::int64_t{1} << up);
         }
         return change;
     }
 
-    // Multipliers from the near end to the far one. Whether any tension is more than a chain stands by
-    // itself.
-    template <bool carried>
-    bool substitute(bool again) {
+    // Multipliers from the near end to the far one.
+    void substitute() const {
         const std::uint32_t count = count_;
-        const ChainSegment* const segments = chain_.segments.data();
-        ChainWork* const work = work_;
-        std::int64_t multiplier = 0;
-        std::uint64_t stiff = 0;
-        for (std::uint32_t j = 0; j < count; ++j) {
-            ChainWork& w = work[j];
-            multiplier = bounded_multiplier(
-                w.own + fixed::multiply_signed(w.carried, multiplier * multiplier_room).hi);
-            w.own = multiplier;
-            w.tension =
-                carried || !again ? multiplier : bounded_multiplier(saturating_add(w.tension, multiplier));
-            w.stiffness = stiffness<carried>(segments[j], w.tension);
-            stiff |= w.stiffness;
+        const std::int64_t* const carried = work_.carried;
+        std::int64_t* const multipliers = work_.multipliers;
+        std::int64_t multiplier = multipliers[0];
+        for (std::uint32_t j = 1; j < count; ++j) {
+            const std::int64_t raised = multiplier * (std::int64_t{1} << (64 - carried_bits));
+            multiplier =
+                bounded(multipliers[j] + fixed::multiply_signed(carried[j], raised).hi, multiplier_limit);
+            multipliers[j] = multiplier;
         }
-        work[count].give = 0;
-        work[count].stiffness = 0;
-        work[count].direction = {};
-        return stiff != 0;
+    }
+
+    // Whether any tension is more than a chain stands by itself. Adds the multipliers to those that are
+    // carried.
+    bool stiffen(bool again) const {
+        const std::int64_t* tensions = work_.multipliers;
+        if (arrays_.multipliers != nullptr) {
+            for (std::uint32_t j = 0; j < count_; ++j) {
+                std::int64_t& sum = arrays_.multipliers[chain_.constraints[j]];
+                sum = bounded(fixed::saturating_add(sum, work_.multipliers[j]), multiplier_limit);
+                work_.tensions[j] = sum;
+            }
+            tensions = work_.tensions;
+        } else if (again) {
+            for (std::uint32_t j = 0; j < count_; ++j) {
+                work_.tensions[j] = bounded(work_.tensions[j] + work_.multipliers[j], multiplier_limit);
+            }
+            tensions = work_.tensions;
+        }
+        ChainTensions task{count_,
+                           std::int64_t{1} << (chain_.stiffness_bits - 2),
+                           tensions,
+                           chain_.stiffness.data(),
+                           chain_.near_shares.data(),
+                           chain_.far_shares.data(),
+                           work_.near,
+                           work_.far};
+        const bool any = kernels_.chain.stiffen(task);
+        if (any && tensions != work_.tensions) {
+            std::copy_n(tensions, count_, work_.tensions);
+        }
+        return any;
     }
 
     // How the particles move by the multipliers.
-    template <typename Use>
-    void each_movement(const Use& use) const {
-        const std::uint32_t count = count_;
-        const ChainParticle* const particles = chain_.particles.data();
-        const ChainWork* const work = work_;
-        const int down = movement_down_;
-        Vec3 pushed{};
-        for (std::uint32_t j = 0; j < count; ++j) {
-            const std::int64_t multiplier = work[j].own * multiplier_room;
-            const auto along = [multiplier](std::int32_t c) {
-                return fixed::multiply_signed(std::int64_t{c} * (std::int64_t{1} << 32), multiplier).hi;
-            };
-            const Direction& n = work[j].direction;
-            const Vec3 push{along(n.x), along(n.y), along(n.z)};
-            use(j, movement(particles[j].weight, pushed - push, down));
-            pushed = push;
+    void push_particles() const {
+        ChainMoves task;
+        task.exponent = chain_.multiplier_exponent;
+        for (auto& pushes : task.pushes) {
+            pushes[0] = 0;
         }
-        use(count, movement(particles[count].weight, pushed, down));
-    }
-
-    // To the nearest coordinate unit, and no more than particles move in a substep.
-    static Vec3 movement(std::uint64_t weight, const Vec3& push, int down) {
-        const auto share = [weight](std::int64_t p) {
-            const fixed::Int128 product = fixed::multiply_signed(static_cast<std::int64_t>(weight), p);
-            return static_cast<std::int64_t>(
-                (static_cast<std::uint64_t>(product.hi) << (64 - chain_share_bits)) +
-                (((product.lo >> (chain_share_bits - 1)) + 1) >> 1));
-        };
-        const Vec3 shares{share(push.x), share(push.y), share(push.z)};
-        if (down > 0) {
-            const auto moved = [down](std::int64_t s) {
-                return std::clamp(fixed::shift_right_rounded(s, down), -substep_motion_limit,
-                                  substep_motion_limit);
-            };
-            return {moved(shares.x), moved(shares.y), moved(shares.z)};
-        }
-        const std::int64_t limit = substep_motion_limit >> -down;
-        const std::int64_t unit = std::int64_t{1} << -down;
-        if (within(shares, limit)) {
-            return {shares.x * unit, shares.y * unit, shares.z * unit};
-        }
-        const auto moved = [limit, unit](std::int64_t s) { return std::clamp(s, -limit, limit) * unit; };
-        return {moved(shares.x), moved(shares.y), moved(shares.z)};
-    }
-
-    // Rarely not: one comparison that is foretold is cheaper than two and two choices.
-    static bool within(std::int64_t value, std::int64_t limit) {
-        return static_cast<std::uint64_t>(value) + static_cast<std::uint64_t>(limit) <=
-               2 * static_cast<std::uint64_t>(limit);
-    }
-
-    static bool within(const Vec3& v, std::int64_t limit) {
-        return within(v.x, limit) && within(v.y, limit) && within(v.z, limit);
-    }
-
-    // Its products by shares and by directions fit.
-    static std::int64_t bounded_multiplier(std::int64_t value) {
-        constexpr std::int64_t limit = (std::int64_t{1} << 61) - 1;
-        return within(value, limit) ? value : std::clamp(value, -limit, limit);
-    }
-
-    // What κ exceeds the stable one by; adds the change to the multiplier that is carried.
-    template <bool carried>
-    std::uint64_t stiffness(const ChainSegment& segment, std::int64_t change) const {
-        std::int64_t multiplier = change;
-        if constexpr (carried) {
-            std::int64_t& sum = arrays_.multipliers[segment.constraint];
-            sum = bounded_multiplier(saturating_add(sum, change));
-            multiplier = sum;
-        }
-        const std::uint64_t high =
-            multiply_unsigned(fixed::magnitude(multiplier), segment.stiffness_mantissa).hi;
-        const int down = segment.stiffness_shift;
-        const std::uint64_t kappa = down >= 0                              ? high >> down
-                                    : high > (greatest_stiffness >> -down) ? greatest_stiffness
-                                                                           : high << -down;
-        return kappa <= stable_stiffness ? 0 : std::min(kappa, greatest_stiffness) - stable_stiffness;
-    }
-
-    // The top 32 bits of a number.
-    struct Mantissa {
-        std::uint64_t value;
-        int up;
-    };
-    static Mantissa mantissa_of(std::uint64_t v) {
-        const int up = std::countl_zero(v);
-        return {(v << up) >> 32, up};
-    }
-
-    struct Shares {
-        std::uint32_t far;  // far / (1 + far)
-        std::uint32_t near; // near / (1 + near + far)
-    };
-
-    // Both by one reciprocal, of the product of what they are divided by.
-    static Shares shares_of(std::uint64_t near, std::uint64_t far) {
-        const Mantissa a = mantissa_of(unit_one + far);
-        const Mantissa b = mantissa_of(unit_one + near + far);
-        const Mantissa both = mantissa_of(a.value * b.value);
-        const std::uint64_t reciprocal = fixed::reciprocal_mantissa(static_cast<std::uint32_t>(both.value));
-        // a·b / 2^(32 − up) times it is 2^62: 1/a is b·reciprocal, and the other way round.
-        const auto share = [&](std::uint64_t v, const Mantissa& own, const Mantissa& other) {
-            const std::uint64_t inverse =
-                (other.value * reciprocal >> (31 - both.up)); // 2^63 / own, 31 .. 32 bits
-            return static_cast<std::uint32_t>(
-                std::min<std::uint64_t>(((v << own.up) >> 32) * inverse >> 32, unit_one));
-        };
-        return {share(far, a, b), share(near, b, a)};
+        each_block(count_ + 1, [&](std::uint32_t first, std::uint32_t count) {
+            task.count = count;
+            task.near = weights_from(first);
+            task.multipliers = work_.multipliers + first;
+            for (int axis = 0; axis < 3; ++axis) {
+                task.directions[axis] = work_.directions[axis] + first;
+                task.movements[axis] = work_.movements[axis] + first;
+            }
+            kernels_.chain.push(task);
+            for (auto& pushes : task.pushes) {
+                pushes[0] = pushes[count];
+            }
+        });
     }
 
     // The mean of what a particle and all behind it would do, from the far end to the near one.
-    void gather() {
-        work_[count_].gathered = work_[count_].movement;
-        std::uint32_t lightness = unit_one; // of a particle with what is behind, of its own inverse mass
-        for (std::uint32_t j = count_; j-- > 0;) {
-            ChainWork& w = work_[j];
-            if (w.stiffness == 0) {
-                w.give = 0;
-                w.gathered = w.movement;
-                lightness = unit_one;
-                continue;
+    void gather() const {
+        std::uint64_t scale = spread_one;
+        std::uint64_t part = spread_one;
+        for (int axis = 0; axis < 3; ++axis) {
+            work_.gathered[axis][count_] = work_.movements[axis][count_];
+        }
+        each_block_back(count_, [&](std::uint32_t first, std::uint32_t count) {
+            ChainShares shares;
+            std::int64_t takes[chain_block];
+            shares.count = count;
+            shares.takes = takes;
+            shares.gives = work_.gives + first;
+            scale_spread(shares, first, scale, part);
+            kernels_.chain.share(shares);
+            gather_block(takes, first, count);
+        });
+    }
+
+    // The system for the movements, eliminated as that for the multipliers.
+    void scale_spread(ChainShares& shares, std::uint32_t first, std::uint64_t& scale,
+                      std::uint64_t& part) const {
+        const int one_down = 64 - chain_.stiffness_bits;
+        const std::int64_t* const near = work_.near + first;
+        const std::int64_t* const far = work_.far + first;
+        std::uint64_t q = scale;
+        std::uint64_t p = part;
+        for (std::uint32_t i = shares.count; i-- > 0;) {
+            if (far[i] == 0) {
+                q = spread_one; // nothing is carried across a pin, not even the scale
+                p = spread_one;
             }
-            const ChainSegment& segment = chain_.segments[j];
-            const std::uint64_t near = share_of(w.stiffness, segment.near_share, unit_fraction_bits);
-            const std::uint64_t far = share_of(share_of(w.stiffness, segment.far_share, unit_fraction_bits),
-                                               lightness, unit_fraction_bits);
-            const Shares shares = shares_of(near, far);
-            w.give = shares.far;
-            w.gathered = w.movement + unit_share(shares.near, work_[j + 1].gathered - w.movement);
-            lightness = unit_one - shares.near;
+            const std::uint64_t taken = upper_half(static_cast<std::uint64_t>(far[i]), p);
+            p = (q >> one_down) + taken;
+            q = p + upper_half(static_cast<std::uint64_t>(near[i]), q);
+            const int up = std::countl_zero(q);
+            q <<= up;
+            p <<= up;
+            shares.scales[i] = static_cast<std::int64_t>(q);
+            shares.parts[i] = static_cast<std::int64_t>(p);
+            shares.fars[i] = static_cast<std::int64_t>(taken << up);
+        }
+        scale = q;
+        part = p;
+    }
+
+    void gather_block(const std::int64_t* takes, std::uint32_t first, std::uint32_t count) const {
+        const std::int64_t* const x = work_.movements[0] + first;
+        const std::int64_t* const y = work_.movements[1] + first;
+        const std::int64_t* const z = work_.movements[2] + first;
+        std::int64_t* const to_x = work_.gathered[0] + first;
+        std::int64_t* const to_y = work_.gathered[1] + first;
+        std::int64_t* const to_z = work_.gathered[2] + first;
+        Vec3 behind{to_x[count], to_y[count], to_z[count]};
+        for (std::uint32_t i = count; i-- > 0;) {
+            const std::int64_t share = takes[i];
+            behind = {x[i] + carry(share, behind.x - x[i]), y[i] + carry(share, behind.y - y[i]),
+                      z[i] + carry(share, behind.z - z[i])};
+            to_x[i] = behind.x;
+            to_y[i] = behind.y;
+            to_z[i] = behind.z;
         }
     }
 
-    // What each does with all that is before it; of the change, what is across the rope. Without pins the
-    // mean of the changes is taken off again.
-    template <bool pinned>
-    void spread_and_move() {
-        Vec3 mean{};
-        Vec3 near{};
-        Vec3 near_movement{};
-        Vec3 near_across{};
-        bool off = false;
-        std::uint32_t give = 0; // of the segment before
-        bool stiff_before = false;
+    // What each does with all that is before it.
+    void spread() const {
+        const std::int64_t* const gives = work_.gives;
+        std::int64_t* const x = work_.gathered[0];
+        std::int64_t* const y = work_.gathered[1];
+        std::int64_t* const z = work_.gathered[2];
+        const std::uint32_t count = count_;
+        Vec3 near{x[0], y[0], z[0]};
+        for (std::uint32_t i = 1; i <= count; ++i) {
+            const std::int64_t share = gives[i - 1];
+            near = {x[i] + carry(share, near.x - x[i]), y[i] + carry(share, near.y - y[i]),
+                    z[i] + carry(share, near.z - z[i])};
+            x[i] = near.x;
+            y[i] = near.y;
+            z[i] = near.z;
+        }
+    }
+
+    // Of the change, what is across the rope. Without pins the mean of the changes is taken off again.
+    void cross() {
+        ChainAcross task;
+        task.count = count_ + 1;
+        task.rest_lengths = chain_.rest_lengths.data();
+        for (int axis = 0; axis < 3; ++axis) {
+            task.directions[axis] = work_.directions[axis];
+            task.movements[axis] = work_.movements[axis];
+            task.changes[axis] = work_.gathered[axis];
+        }
+        off_ = kernels_.chain.cross(task);
+        if (chain_.pinned_count == 0) {
+            for (int axis = 0; axis < 3; ++axis) {
+                take_mean_off(work_.movements[axis], work_.gathered[axis]);
+            }
+        }
+    }
+
+    void take_mean_off(std::int64_t* movements, const std::int64_t* changes) const {
+        std::int64_t mean = 0;
         for (std::uint32_t i = 0; i <= count_; ++i) {
-            ChainWork& w = work_[i];
-            Vec3 here = w.gathered;
-            if (give != 0) {
-                here = here + unit_share(give, near - here);
-            }
-            const bool stiff = w.stiffness != 0;
-            Vec3 movement = w.movement;
-            Vec3 across{};
-            if (stiff || stiff_before) {
-                across = across_rope(i, here - movement);
-                movement = movement + across;
-                if constexpr (!pinned) {
-                    const auto share = static_cast<std::int64_t>(chain_.particles[i].mass_share);
-                    mean =
-                        mean + Vec3{multiply_shift(share, across.x, 63), multiply_shift(share, across.y, 63),
-                                    multiply_shift(share, across.z, 63)};
-                }
-            }
-            if constexpr (pinned) {
-                move(i, movement);
-            } else {
-                w.movement = movement;
-            }
-            if (i > 0) {
-                off |= is_left_off(i - 1, movement - near_movement, across - near_across);
-            }
-            near_movement = movement;
-            near_across = across;
-            near = here;
-            give = w.give;
-            stiff_before = stiff;
+            mean += multiply_shift(chain_.mass_shares[i], changes[i], 63);
         }
-        if constexpr (!pinned) {
-            for (std::uint32_t i = 0; i <= count_; ++i) {
-                move(i, work_[i].movement - mean);
-            }
+        for (std::uint32_t i = 0; i <= count_; ++i) {
+            movements[i] -= mean;
         }
-        off_ = off;
     }
 
-    // By how its ends moved against each other, and by what of that the second pass changed.
-    bool is_left_off(std::uint32_t index, const Vec3& apart, const Vec3& changed) const {
-        const std::int64_t rest = chain_.segments[index].rest_length;
-        if (!within(apart, rest >> turn_shift)) {
-            return true;
+    void move_particles() const {
+        const std::uint32_t* const particles = chain_.particles.data();
+        const std::int64_t* const x = work_.movements[0];
+        const std::int64_t* const y = work_.movements[1];
+        const std::int64_t* const z = work_.movements[2];
+        const std::uint32_t count = count_;
+        const DistanceArrays to = arrays_;
+        for (std::uint32_t i = 0; i <= count; ++i) {
+            const std::uint32_t p = particles[i];
+            to.x[p] = wrapping_add(to.x[p], x[i]);
+            to.y[p] = wrapping_add(to.y[p], y[i]);
+            to.z[p] = wrapping_add(to.z[p], z[i]);
         }
-        const std::int64_t limit = rest >> error_shift;
-        if (within(changed, limit >> 1)) {
-            return false; // in any direction
-        }
-        const Direction& n = work_[index].direction;
-        return !within(direction_share(n.x, changed.x) + direction_share(n.y, changed.y) +
-                           direction_share(n.z, changed.z),
-                       limit);
-    }
-
-    Vec3 across_rope(std::uint32_t index, const Vec3& v) const {
-        const Direction a = index == 0 ? Direction{} : work_[index - 1].direction;
-        const Direction b = index == count_ ? Direction{} : work_[index].direction;
-        const std::int64_t x = (std::int64_t{a.x} + b.x) >> 1;
-        const std::int64_t y = (std::int64_t{a.y} + b.y) >> 1;
-        const std::int64_t z = (std::int64_t{a.z} + b.z) >> 1;
-        const auto squared = static_cast<std::uint32_t>((x * x + y * y + z * z) >> direction_fraction_bits);
-        if (squared < least_tangent) {
-            return v;
-        }
-        const int up = std::countl_zero(squared);
-        const std::int64_t reciprocal = fixed::reciprocal_mantissa(squared << up);
-        const std::int64_t along =
-            direction_share(x, v.x) + direction_share(y, v.y) + direction_share(z, v.z);
-        const auto rest = [&](std::int64_t c, std::int64_t from) {
-            return from - direction_share(c * reciprocal >> (32 - up), along);
-        };
-        return {rest(x, v.x), rest(y, v.y), rest(z, v.z)};
-    }
-
-    static std::int64_t direction_share(std::int64_t direction, std::int64_t value) {
-        return share_of(direction, value, direction_fraction_bits);
-    }
-
-    void move(std::uint32_t index, const Vec3& v) const {
-        const std::uint32_t p = chain_.particles[index].particle;
-        arrays_.x[p] = wrapping_add(arrays_.x[p], v.x);
-        arrays_.y[p] = wrapping_add(arrays_.y[p], v.y);
-        arrays_.z[p] = wrapping_add(arrays_.z[p], v.z);
     }
 
     const ChainCoefficients& chain_;
     const FamilyCoefficients& family_;
     DistanceArrays arrays_;
     const Kernels& kernels_;
-    ChainWork* work_;
+    std::uint32_t count_;
+    ChainWork work_;
     bool torn_;
     bool eased_; // multipliers so far count
     bool off_ = false;
     std::uint64_t softness_;
     std::uint64_t taut_ = rest_one; // what rest lengths are multiplied by in the piece at hand
-    std::uint32_t count_;
-    int movement_down_;
 };
 
 } // namespace
 
 bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
-                 const DistanceArrays& arrays, const Kernels& kernels, ChainWork* work) {
-    ChainSolve solve(chain, family, arrays, kernels, work, false);
+                 const DistanceArrays& arrays, const Kernels& kernels, std::int64_t* memory) {
+    ChainSolve solve(chain, family, arrays, kernels, memory, false);
     if (!solve.run(false)) {
         return false;
     }
@@ -612,8 +563,8 @@ bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& famil
 }
 
 void mend_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
-                const DistanceArrays& arrays, const Kernels& kernels, ChainWork* work) {
-    static_cast<void>(ChainSolve(chain, family, arrays, kernels, work, true).run(false));
+                const DistanceArrays& arrays, const Kernels& kernels, std::int64_t* memory) {
+    static_cast<void>(ChainSolve(chain, family, arrays, kernels, memory, true).run(false));
 }
 
 } // namespace lks

@@ -12,6 +12,13 @@
 //     t_j-1 = x_j·(t_j + σ + w_j·s²)      a sum of what is positive: nothing cancels, for any mass ratio
 //     λ_j   = (b_j + ...)/d_j + x_j·(n_j-1·n_j)·λ_j-1
 //
+// t is kept as a quotient w·p/q, so that no row waits for a division: with w_near of the particle at the near
+// end and u = w·p of the one at the far end,
+//
+//     q' = (w_near + σ)·q + u        p' = (σ + w_near·s²)·q + u        d = q'/q, x = w_near/d
+//
+// p and q are shifted up together. The divisions follow, block by block, over lanes (kernels/chain_task.h).
+//
 // A pinned particle has w = 0, and cuts the chain in two by itself; so does a segment of length zero, which
 // has no direction.
 //
@@ -35,6 +42,7 @@
 // torn rope is swept first, and then solved for changes that are short against its segments.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "fixed/vector.h"
@@ -43,25 +51,72 @@
 
 namespace lks {
 
-// What one solve remembers of a segment and of the particle at its near end. No state.
-struct ChainWork {
-    fixed::Direction direction; // zero: none
-    std::uint32_t give;         // what the far end takes of the near one's movement, Unit
-    std::int64_t carried;       // this times the multiplier before ...
-    std::int64_t own;           // ... and this make the multiplier, which then replaces it
-    std::int64_t tension;       // the multipliers of this substep so far
-    std::uint64_t stiffness;    // κ beyond what is stable by itself, Unit
-    fixed::Vec3 movement;       // Coordinate
-    fixed::Vec3 gathered;
+// What one solve remembers of segments and of the particles at their near ends: an array each, all in one
+// piece of memory. No state.
+class ChainWork {
+public:
+    // Of a rope of so many segments.
+    static constexpr std::size_t words(std::size_t segments) { return array_count * (length(segments) + 1); }
+
+    ChainWork(std::int64_t* memory, std::size_t segments) : length_(length(segments)) {
+        const auto array = [&] {
+            std::int64_t* const first = memory;
+            memory += length_;
+            return first;
+        };
+        for (int axis = 0; axis < 3; ++axis) {
+            *memory++ = 0;
+            directions[axis] = array();
+            movements[axis] = array();
+            gathered[axis] = array();
+        }
+        carried = array();
+        multipliers = array();
+        tensions = array();
+        near = array();
+        far = array();
+        gives = array();
+    }
+
+    // Zero behind so many, as far as kernels read.
+    void end(std::size_t segments) const {
+        for (std::size_t i = segments; i < length_; ++i) {
+            for (int axis = 0; axis < 3; ++axis) {
+                directions[axis][i] = 0;
+                movements[axis][i] = 0;
+                gathered[axis][i] = 0;
+            }
+            multipliers[i] = 0;
+            tensions[i] = 0;
+            near[i] = 0;
+            far[i] = 0;
+        }
+    }
+
+    std::int64_t* directions[3]; // zero: none; and before the first
+    std::int64_t* movements[3];  // Coordinate
+    std::int64_t* gathered[3];
+    std::int64_t* carried;     // this times the multiplier before, carried_bits ...
+    std::int64_t* multipliers; // ... and this make the multiplier, which then replaces it
+    std::int64_t* tensions;    // the multipliers of this substep so far
+    std::int64_t* near;        // κ beyond what is stable by itself, of the ends
+    std::int64_t* far;
+    std::int64_t* gives; // what the far end takes of the near one's movement, carried_bits
+
+private:
+    static constexpr std::size_t array_count = 15;
+    static constexpr std::size_t length(std::size_t segments) { return segments + 1 + chain_padding; }
+
+    std::size_t length_;
 };
 
-// One iteration. `work` has room for all particles. False, and nothing is changed, where a segment is torn:
+// One iteration. `memory` has room for the work. False, and nothing is changed, where a segment is torn:
 // longer than twice its rest length, more where it is soft.
 [[nodiscard]] bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
-                               const DistanceArrays& arrays, const Kernels& kernels, ChainWork* work);
+                               const DistanceArrays& arrays, const Kernels& kernels, std::int64_t* memory);
 
 // The same for a torn rope, whose segments have been swept: changes each by half its length at most.
 void mend_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
-                const DistanceArrays& arrays, const Kernels& kernels, ChainWork* work);
+                const DistanceArrays& arrays, const Kernels& kernels, std::int64_t* memory);
 
 } // namespace lks

@@ -11,12 +11,25 @@ using fixed::Scaled;
 
 // Multipliers saturate where the whole rope would change its motion by so many metres a substep, or stretch
 // by more than any two particles are apart.
-constexpr std::uint64_t greatest_change = 4;
+constexpr std::uint64_t greatest_change = 2;
 constexpr std::uint64_t greatest_stretch = 256;
-constexpr int multiplier_bits = 61;
+constexpr int multiplier_bits = 60;
 
 std::uint32_t to_unit(const Scaled& value) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(value.to_fixed(unit_fraction_bits), unit_one));
+}
+
+// At least one significant bit of κ = 1/4 is left, and a κ of 2^60 beyond it.
+constexpr int least_stiffness_bits = 8;
+constexpr int greatest_stiffness_bits = 58;
+
+template <typename T>
+bool copy_of(Array<T>& to, const Array<T>& from) {
+    if (!to.resize(from.size())) {
+        return false;
+    }
+    std::copy(from.begin(), from.end(), to.begin());
+    return true;
 }
 
 } // namespace
@@ -26,7 +39,12 @@ bool ChainCoefficients::build(const lks_asset& asset, const Scaled& inverse_stif
     if (count == 0) {
         return true;
     }
-    if (!particles.resize(std::size_t{count} + 1) || !segments.resize(count)) {
+    const std::size_t points = std::size_t{count} + 1;
+    const std::size_t padded = points + chain_padding;
+    if (!particles.resize(points) || !weights.resize(padded) || !weight_shifts.resize(padded) ||
+        !weight_shares.resize(points) || !mass_shares.resize(points) || !constraints.resize(count) ||
+        !rest_lengths.resize(padded) || !slacks.resize(padded) || !stiffness.resize(padded) ||
+        !near_shares.resize(padded) || !far_shares.resize(padded)) {
         return false;
     }
     Scaled lightest{};
@@ -37,8 +55,7 @@ bool ChainCoefficients::build(const lks_asset& asset, const Scaled& inverse_stif
     }
     soft_part = inverse_stiffness;
     reference = lightest + lightest + soft_part;
-    softness = (soft_part / reference).to_fixed(chain_share_bits);
-    weight_exponent = std::clamp(-(lightest / reference).log2_floor(), 1, chain_share_bits);
+    softness = static_cast<std::uint64_t>((soft_part / reference).to_i64_fixed(chain_share_bits));
     Scaled greatest = reference * mass * Scaled::from_u64(greatest_change);
     if (!soft_part.is_zero()) {
         const Scaled stretched = reference / soft_part * Scaled::from_u64(greatest_stretch);
@@ -47,31 +64,48 @@ bool ChainCoefficients::build(const lks_asset& asset, const Scaled& inverse_stif
     // At least one, so that equal masses move by exact halves of it.
     multiplier_exponent =
         std::clamp(greatest.log2_floor() + 1 + coordinate_fraction_bits - multiplier_bits, 1, 60);
+    std::int64_t shortest = INT64_MAX;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        constraints[i] = asset.chain[i];
+        rest_lengths[i] = asset.rest_lengths[asset.chain[i]];
+        shortest = std::min(shortest, rest_lengths[i]);
+    }
+    const Scaled stiffest =
+        lightest / reference /
+        Scaled::from_fixed(static_cast<std::uint64_t>(shortest), coordinate_fraction_bits);
+    stiffness_bits = std::clamp(coordinate_fraction_bits - 1 - multiplier_exponent - stiffest.log2_floor(),
+                                least_stiffness_bits, greatest_stiffness_bits);
+    std::fill(weight_shifts.begin(), weight_shifts.end(), static_cast<std::uint32_t>(greatest_weight_shift));
+    std::fill(rest_lengths.begin() + count, rest_lengths.end(), rest_behind_the_end);
     for (std::uint32_t i = 0; i <= count; ++i) {
         const std::uint32_t particle = asset.vertex_to_particle[i];
-        particles[i] = {0, (asset.masses[particle] / mass).to_fixed(63), particle, 0};
+        particles[i] = particle;
+        mass_shares[i] = (asset.masses[particle] / mass).to_i64_fixed(63);
         update_weight(asset, i, false);
+        pinned_within += i > 0 && i < count && weights[i] == 0 ? 1u : 0u; // too heavy to move
     }
     for (std::uint32_t i = 0; i < count; ++i) {
-        segments[i].constraint = asset.chain[i];
-        segments[i].rest_length = asset.rest_lengths[asset.chain[i]];
         update_segment(asset, i);
     }
     return true;
 }
 
 bool ChainCoefficients::copy(const ChainCoefficients& other) {
-    if (!particles.resize(other.particles.size()) || !segments.resize(other.segments.size())) {
+    if (!copy_of(particles, other.particles) || !copy_of(weights, other.weights) ||
+        !copy_of(weight_shifts, other.weight_shifts) || !copy_of(weight_shares, other.weight_shares) ||
+        !copy_of(mass_shares, other.mass_shares) || !copy_of(constraints, other.constraints) ||
+        !copy_of(rest_lengths, other.rest_lengths) || !copy_of(slacks, other.slacks) ||
+        !copy_of(stiffness, other.stiffness) || !copy_of(near_shares, other.near_shares) ||
+        !copy_of(far_shares, other.far_shares)) {
         return false;
     }
-    std::copy(other.particles.begin(), other.particles.end(), particles.begin());
-    std::copy(other.segments.begin(), other.segments.end(), segments.begin());
     reference = other.reference;
     soft_part = other.soft_part;
     softness = other.softness;
-    weight_exponent = other.weight_exponent;
     multiplier_exponent = other.multiplier_exponent;
+    stiffness_bits = other.stiffness_bits;
     pinned_count = other.pinned_count;
+    pinned_within = other.pinned_within;
     return true;
 }
 
@@ -81,46 +115,53 @@ void ChainCoefficients::update_particle(const lks_asset& asset, std::uint32_t pa
         return;
     }
     const std::uint32_t index = asset.particle_to_vertex[particle];
+    const bool within = index > 0 && index < count();
+    pinned_within -= within && weights[index] == 0 ? 1u : 0u;
     update_weight(asset, index, pinned);
+    pinned_within += within && weights[index] == 0 ? 1u : 0u;
     if (index > 0) {
         update_segment(asset, index - 1);
     }
-    if (index < segments.size()) {
+    if (index < count()) {
         update_segment(asset, index);
     }
     pinned_count = all_pinned;
 }
 
 void ChainCoefficients::update_weight(const lks_asset& asset, std::uint32_t index, bool pinned) {
-    const Scaled share = asset.inverse_masses[particles[index].particle] / reference;
-    particles[index].weight = pinned ? 0 : share.to_fixed(chain_share_bits + weight_exponent);
+    const Scaled share = asset.inverse_masses[particles[index]] / reference;
+    // At most a half, unless rounding has made it more.
+    const int shift = std::clamp(-share.log2_floor() - 1, 0, greatest_weight_shift);
+    const std::uint64_t weight = std::min<std::uint64_t>(share.to_fixed(chain_weight_bits + shift),
+                                                         (std::uint64_t{1} << chain_weight_bits) - 1);
+    const bool moves = !pinned && weight != 0;
+    weights[index] = moves ? static_cast<std::uint32_t>(weight) : 0;
+    weight_shifts[index] = static_cast<std::uint32_t>(moves ? shift : greatest_weight_shift);
+    weight_shares[index] = std::uint64_t{weights[index]} << 32 >> weight_shifts[index];
 }
 
 void ChainCoefficients::update_segment(const lks_asset& asset, std::uint32_t index) {
     const auto inverse_mass = [&](std::uint32_t i) {
-        return particles[i].weight == 0 ? Scaled{} : asset.inverse_masses[particles[i].particle];
+        return weights[i] == 0 ? Scaled{} : asset.inverse_masses[particles[i]];
     };
     const Scaled near = inverse_mass(index);
     const Scaled far = inverse_mass(index + 1);
     const Scaled lighter = near < far ? far : near;
-    ChainSegment& segment = segments[index];
     if (lighter.is_zero()) {
-        segment.stiffness_mantissa = 0;
-        segment.slack = INT64_MAX;
+        stiffness[index] = 0;
+        slacks[index] = INT64_MAX;
         return;
     }
-    segment.near_share = to_unit(near / lighter);
-    segment.far_share = to_unit(far / lighter);
-    // w/R/L for a multiplier of 2^multiplier_exponent coordinate units, and the result in Unit.
+    near_shares[index] = to_unit(near / lighter);
+    far_shares[index] = to_unit(far / lighter);
     const Scaled length =
-        Scaled::from_fixed(static_cast<std::uint64_t>(segment.rest_length), coordinate_fraction_bits);
+        Scaled::from_fixed(static_cast<std::uint64_t>(rest_lengths[index]), coordinate_fraction_bits);
     const Scaled both = near + far;
-    segment.slack = (length * (both + soft_part) / both).to_i64_fixed(coordinate_fraction_bits);
-    const Scaled factor =
-        (lighter / reference / length)
-            .times_power_of_two(multiplier_exponent - coordinate_fraction_bits + unit_fraction_bits);
-    segment.stiffness_mantissa = factor.mantissa;
-    segment.stiffness_shift = std::clamp(-factor.exponent - 64, -63, 63);
+    slacks[index] = (length * (both + soft_part) / both).to_i64_fixed(coordinate_fraction_bits);
+    // w/R/L for a multiplier of 2^multiplier_exponent coordinate units.
+    const Scaled factor = lighter / reference / length;
+    stiffness[index] = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        factor.to_fixed(multiplier_exponent - coordinate_fraction_bits + stiffness_bits + 32), UINT32_MAX));
 }
 
 } // namespace lks

@@ -108,7 +108,8 @@ const KnownAsset* lks_world::know_asset(const lks_asset& asset) {
     }
     for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
         if (!scratch[worker].distances.reserve(asset.batches.size()) ||
-            !scratch[worker].chain.reserve(asset.chain.empty() ? 0 : asset.chain.size() + 1) ||
+            !scratch[worker].chain.reserve(asset.chain.empty() ? 0
+                                                               : lks::ChainWork::words(asset.chain.size())) ||
             !scratch[worker].anchors.reserve(asset.tethers.anchors.size())) {
             return nullptr;
         }
