@@ -77,8 +77,11 @@ TEST_CASE("a light box squeezed between the ground and a heavy one comes free, b
         const double between = state_of(world, light).position.y + 0.15 - state_of(world, heavy).position.y;
         INFO("jointed " << jointed << ": " << below << " m and " << between << " m deep, asleep after "
                         << ticks << " ticks");
-        CHECK(below < 1.6e-3);
-        CHECK(between < 1.6e-3);
+        // By itself it is moved without speed, and may sleep once no more than a millimetre and a half is
+        // left.
+        const double left = jointed ? 1e-3 : 1.6e-3;
+        CHECK(below < left);
+        CHECK(between < left);
         CHECK(lks_world_awake_body_count(world) == 0);
     }
 }

@@ -165,7 +165,7 @@ TEST_CASE("bodies that may not sleep stay where they are") {
         energy = std::max(energy, energy_of(world));
     }
     // Metres, however long: what boxes that may not sleep tremble by.
-    const double bounds[] = {1e-5, 0, 1e-5, 5e-5, 0};
+    const double bounds[] = {2e-6, 0, 4e-6, 1e-5, 0};
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         expect_at_most(named(names[i], ", ", ticks_of_rest(), " ticks of rest"), "moved", "m", bounds[i],
                        moved[i]);

@@ -5,6 +5,7 @@
 
 #include "fixed/formats.h"
 #include "fixed/vector.h"
+#include "kernels/bounded.h"
 #include "kernels/measure_segment.h"
 
 namespace lks {
@@ -17,18 +18,8 @@ std::int64_t share_31(std::int64_t a, std::uint32_t b) {
     return fixed::multiply_signed(4 * a, std::int64_t{b} << 31).hi;
 }
 
-// Rarely not: one comparison that is foretold is cheaper than two and two choices.
-bool within(std::int64_t value, std::int64_t limit) {
-    return static_cast<std::uint64_t>(value) + static_cast<std::uint64_t>(limit) <=
-           2 * static_cast<std::uint64_t>(limit);
-}
-
-bool within(const fixed::Vec3& v, std::int64_t limit) {
+bool all_within(const fixed::Vec3& v, std::int64_t limit) {
     return within(v.x, limit) && within(v.y, limit) && within(v.z, limit);
-}
-
-std::int64_t bounded(std::int64_t value, std::int64_t limit) {
-    return within(value, limit) ? value : std::clamp(value, -limit, limit);
 }
 
 template <typename Arrays>
@@ -183,11 +174,11 @@ bool leaves_off_scalar(const ChainAcross& task, std::uint32_t first, std::uint32
         const fixed::Vec3 next_movement = vector_at(task.movements, i);
         const fixed::Vec3 next_change = vector_at(task.changes, i);
         const std::int64_t rest = task.rest_lengths[i - 1];
-        if (!within(next_movement - movement, rest >> turn_shift)) {
+        if (!all_within(next_movement - movement, rest >> turn_shift)) {
             return true;
         }
         const fixed::Vec3 changed = next_change - change;
-        if (!within(changed, rest >> (error_shift + 1))) { // or else in any direction
+        if (!all_within(changed, rest >> (error_shift + 1))) { // or else in any direction
             const fixed::Vec3 n = vector_at(task.directions, i - 1);
             const std::int64_t along = direction_share(changed.x, n.x) + direction_share(changed.y, n.y) +
                                        direction_share(changed.z, n.z);

@@ -117,10 +117,6 @@ struct LanesAvx512 {
     static Register and_not(Register mask, Register v) { return _mm512_andnot_si512(mask, v); }
     // Bit i: lane i is negative.
     static std::uint32_t sign_bits(Register v) { return _mm512_movepi64_mask(v); }
-    static bool leave(Register a, Register w) {
-        return (_mm512_test_epi64_mask(a, _mm512_set1_epi64(static_cast<long long>(0xffffffff80000000u))) |
-                _mm512_testn_epi32_mask(w, w)) != 0;
-    }
     static bool any(Register v) { return _mm512_test_epi64_mask(v, v) != 0; }
     // Every bit is set.
     static bool all(Register v) { return _mm512_cmpneq_epi64_mask(v, _mm512_set1_epi64(-1)) == 0; }

@@ -66,6 +66,18 @@ public:
         return true;
     }
 
+    // The other's values. False: no memory, nothing changed.
+    [[nodiscard]] bool copy(const Array& other) {
+        if (!reserve(other.size_)) {
+            return false;
+        }
+        if (other.size_ != 0) {
+            std::memcpy(static_cast<void*>(data_), other.data_, other.bytes());
+        }
+        size_ = other.size_;
+        return true;
+    }
+
     // Amortised growth, for building.
     [[nodiscard]] bool push(const T& value) {
         if (size_ == capacity_) {

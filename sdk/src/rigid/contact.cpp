@@ -64,9 +64,9 @@ void undo(Body& body, const Move& move, std::int32_t share) {
 
 // How far surfaces may close in a substep, or, less than nothing, have to part: by fifteen times what is to
 // be undone a second, at most a thirty-second of it at once.
-std::int64_t allowed_motion(const Contact& contact, std::int64_t separation, const MotionRate& rate) {
+std::int64_t allowed_motion(std::int64_t separation, bool jointed, const MotionRate& rate) {
     const std::int64_t depth = -separation - allowed_overlap;
-    if (depth <= 0 || !contact.jointed) {
+    if (depth <= 0 || !jointed) {
         return std::max<std::int64_t>(separation, 0);
     }
     const std::int64_t n = rate.substeps_per_second;
@@ -161,6 +161,7 @@ void take_manifold(Contact& contact, std::span<const ContactPush> old_pushes, co
 
 void begin_substep(Contact& contact, const Body& a, const Body& b, const MotionRate& rate) {
     const Vec3 between = b.position - a.position;
+    const bool jointed = a.jointed || b.jointed;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         ContactPoint& point = contact.points[i];
         const Levers cores = cores_now(point, a, b);
@@ -170,7 +171,7 @@ void begin_substep(Contact& contact, const Body& a, const Body& b, const MotionR
         point.start = distance_now(a, point.material_a, b, point.material_b);
         point.core_start = between + cores.b - cores.a;
         point.separation = fixed::dot(contact.normal(), between + levers.b - levers.a);
-        point.allowed = allowed_motion(contact, point.separation, rate);
+        point.allowed = allowed_motion(point.separation, jointed, rate);
         point.approach = contact.restitution == 0 ? 0 : closing_speed(contact, levers, a, b);
         point.active = false;
     }
@@ -226,7 +227,7 @@ void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t le
 void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate& rate) {
     // At most three metres a second, and a quarter of what is left.
     const std::int64_t most = LKS_FIXED(3) / rate.substeps_per_second;
-    const std::int64_t left = contact.jointed ? deep_overlap : allowed_overlap;
+    const std::int64_t left = bodies.a.jointed || bodies.b.jointed ? deep_overlap : allowed_overlap;
     Move move_a;
     Move move_b;
     bool any = false;

@@ -85,7 +85,6 @@ struct Contact {
     std::int64_t restitution;       // World
     std::int64_t given_speed;       // World m/s: what it gave along its normals in this tick, added up
     bool every_substep;             // its points are looked for in each, not once a tick
-    bool jointed;                   // joints hold one of its bodies
     fixed::Direction directions[3]; // the normal, from a to b, and two across it
     // Of the substep: a push along the normal at the middle of all active points, where they are several.
     ContactRows middle;

@@ -25,27 +25,9 @@ void find_ranges(RigidScene& scene) {
     }
 }
 
-void mark_jointed(RigidScene& scene) {
-    for (Body& body : scene.bodies) {
-        body.jointed = false;
-    }
-    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
-        if (scene.joint_slots[i].used) {
-            const JointDescription& joint = scene.joints[i].description;
-            scene.bodies[joint.body_a].jointed = scene.bodies[joint.body_b].jointed = true;
-        }
-    }
-    for (Contact& contact : scene.contacts) {
-        const ContactKey& key = contact.key;
-        contact.jointed = scene.bodies[key.body_a].jointed ||
-                          (key.other < other_is_collider && scene.bodies[key.other].jointed);
-    }
-}
-
 } // namespace
 
 void find_figures(RigidScene& scene) {
-    mark_jointed(scene);
     BodyRoots roots(scene, scene.figures);
     roots.join_by_joints();
     scene.figure_parts.clear();
@@ -56,6 +38,7 @@ void find_figures(RigidScene& scene) {
     };
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         scene.figures[i] = roots.root(i);
+        scene.bodies[i].jointed = false;
         if (scene.body_slots[i].used) {
             add(i, Part::body, i);
         }
@@ -63,6 +46,7 @@ void find_figures(RigidScene& scene) {
     for (std::size_t i = 0; i < scene.joints.size(); ++i) {
         if (scene.joint_slots[i].used) {
             const JointDescription& joint = scene.joints[i].description;
+            scene.bodies[joint.body_a].jointed = scene.bodies[joint.body_b].jointed = true;
             add(scene.bodies[joint.body_a].is_awake() ? joint.body_a : joint.body_b, Part::joint, i);
         }
     }

@@ -86,17 +86,6 @@ Vec3 clamped_turn(const Vec3& half_turn) {
 
 } // namespace
 
-std::int64_t shifted(std::int64_t value, int shift) {
-    constexpr std::int64_t limit = std::int64_t{1} << 50;
-    if (shift <= 0) {
-        return shift < -62 ? 0 : fixed::shift_right_rounded(value, -shift);
-    }
-    if (shift > 50 || value > (limit >> shift) || value < -(limit >> shift)) {
-        return value == 0 ? 0 : value < 0 ? -limit : limit;
-    }
-    return value * (std::int64_t{1} << shift);
-}
-
 bool heavier(const InverseMass& a, const InverseMass& b) {
     if (a.mantissa == 0 || b.mantissa == 0) {
         return a.mantissa == 0 && b.mantissa != 0;

@@ -90,7 +90,16 @@ BlockSide block_side(const Body& body, std::int32_t share, const fixed::Vec3& le
 inline constexpr int half_turn_fraction_bits = 40;
 
 // value · 2^shift, rounded to the nearest; saturates at 2^50.
-std::int64_t shifted(std::int64_t value, int shift);
+inline std::int64_t shifted(std::int64_t value, int shift) {
+    constexpr std::int64_t limit = std::int64_t{1} << 50;
+    if (shift <= 0) {
+        return shift < -62 ? 0 : fixed::shift_right_rounded(value, -shift);
+    }
+    if (shift > 50 || value > (limit >> shift) || value < -(limit >> shift)) {
+        return value == 0 ? 0 : value < 0 ? -limit : limit;
+    }
+    return value * (std::int64_t{1} << shift);
+}
 
 // What one or several rows do to a body: added up, and then applied together.
 struct Move {

@@ -6,6 +6,7 @@
 #include "fixed/formats.h"
 #include "fixed/int128.h"
 #include "fixed/vector.h"
+#include "kernels/bounded.h"
 #include "kernels/measure_segment.h"
 #include "solver/wrapping.h"
 
@@ -48,16 +49,6 @@ std::int64_t unit_share(std::uint32_t unit, std::int64_t value) {
     const std::int64_t upper = fixed::wrapping_multiply(value >> unit_fraction_bits, unit);
     const std::int64_t lower = value & (std::int64_t{unit_one} - 1);
     return wrapping_add(upper, (lower * unit) >> unit_fraction_bits);
-}
-
-// Rarely not: one comparison that is foretold is cheaper than two and two choices.
-bool within(std::int64_t value, std::int64_t limit) {
-    return static_cast<std::uint64_t>(value) + static_cast<std::uint64_t>(limit) <=
-           2 * static_cast<std::uint64_t>(limit);
-}
-
-std::int64_t bounded(std::int64_t value, std::int64_t limit) {
-    return within(value, limit) ? value : std::clamp(value, -limit, limit);
 }
 
 class ChainSolve {

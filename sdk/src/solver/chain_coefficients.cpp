@@ -23,15 +23,6 @@ std::uint32_t to_unit(const Scaled& value) {
 constexpr int least_stiffness_bits = 8;
 constexpr int greatest_stiffness_bits = 58;
 
-template <typename T>
-bool copy_of(Array<T>& to, const Array<T>& from) {
-    if (!to.resize(from.size())) {
-        return false;
-    }
-    std::copy(from.begin(), from.end(), to.begin());
-    return true;
-}
-
 } // namespace
 
 bool ChainCoefficients::build(const lks_asset& asset, const Scaled& inverse_stiffness) {
@@ -91,12 +82,12 @@ bool ChainCoefficients::build(const lks_asset& asset, const Scaled& inverse_stif
 }
 
 bool ChainCoefficients::copy(const ChainCoefficients& other) {
-    if (!copy_of(particles, other.particles) || !copy_of(weights, other.weights) ||
-        !copy_of(weight_shifts, other.weight_shifts) || !copy_of(weight_shares, other.weight_shares) ||
-        !copy_of(mass_shares, other.mass_shares) || !copy_of(constraints, other.constraints) ||
-        !copy_of(rest_lengths, other.rest_lengths) || !copy_of(slacks, other.slacks) ||
-        !copy_of(stiffness, other.stiffness) || !copy_of(near_shares, other.near_shares) ||
-        !copy_of(far_shares, other.far_shares)) {
+    if (!particles.copy(other.particles) || !weights.copy(other.weights) ||
+        !weight_shifts.copy(other.weight_shifts) || !weight_shares.copy(other.weight_shares) ||
+        !mass_shares.copy(other.mass_shares) || !constraints.copy(other.constraints) ||
+        !rest_lengths.copy(other.rest_lengths) || !slacks.copy(other.slacks) ||
+        !stiffness.copy(other.stiffness) || !near_shares.copy(other.near_shares) ||
+        !far_shares.copy(other.far_shares)) {
         return false;
     }
     reference = other.reference;

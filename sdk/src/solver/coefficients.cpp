@@ -114,16 +114,11 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
 }
 
 bool Coefficients::copy(const Coefficients& other) {
-    if (!shares_a.resize(other.shares_a.size()) || !shares_b.resize(other.shares_b.size()) ||
-        !relaxations.resize(other.relaxations.size()) || !batches.resize(other.batches.size()) ||
-        !chain.copy(other.chain)) {
+    if (!shares_a.copy(other.shares_a) || !shares_b.copy(other.shares_b) ||
+        !relaxations.copy(other.relaxations) || !batches.copy(other.batches) || !chain.copy(other.chain)) {
         return false;
     }
     std::copy(std::begin(other.families), std::end(other.families), std::begin(families));
-    std::copy(other.shares_a.begin(), other.shares_a.end(), shares_a.begin());
-    std::copy(other.shares_b.begin(), other.shares_b.end(), shares_b.begin());
-    std::copy(other.relaxations.begin(), other.relaxations.end(), relaxations.begin());
-    std::copy(other.batches.begin(), other.batches.end(), batches.begin());
     return true;
 }
 
