@@ -46,15 +46,23 @@ TEST_CASE("a box that begins in the ground comes out of it, and leaves it by nex
 }
 
 TEST_CASE("what begins a thousand kilometres in the ground comes up, and sinks no further") {
-    World world(world_def(60, 8));
-    add_ground(world);
-    const lks_body_id box = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(0, -1e6, 0));
-    world.step(60);
-    const BodyState state = state_of(world, box);
-    INFO("risen by " << state.position.y + 1e6 << " m");
-    CHECK(state.position.y > -1e6 + 2.5); // undone at three metres a second
-    CHECK(state.position.y < -1e6 + 4);
-    CHECK(state.velocity.length() < 0.5);
+    for (const bool jointed : {false, true}) {
+        World world(world_def(60, 8));
+        add_ground(world);
+        const lks_body_id box = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(0, -1e6, 0));
+        if (jointed) {
+            lks_joint_def joint = lks_default_joint_def();
+            joint.frame_a.position = fixed(0.25, 0, 0);
+            joint.frame_b.position = fixed(-0.25, 0, 0);
+            add_joint(world, joint, box, add_body(world, box_shape(0.2, 0.2, 0.2), fixed(0.5, -1e6, 0)));
+        }
+        world.step(60);
+        const BodyState state = state_of(world, box);
+        INFO("jointed " << jointed << ": risen by " << state.position.y + 1e6 << " m");
+        CHECK(state.position.y > -1e6 + 2.5); // undone at three metres a second
+        CHECK(state.position.y < -1e6 + 4);
+        CHECK(state.velocity.length() < 0.5);
+    }
 }
 
 TEST_CASE("a light box squeezed between the ground and a heavy one comes free, by itself and in a figure") {
