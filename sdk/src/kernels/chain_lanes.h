@@ -1,6 +1,6 @@
 // The steps of a rope's solve over lanes: kernels/chain_scalar.cpp, which measures groups in which a segment
-// is not from 0.2 µm to 16 m long, or ends within rounding of a power of two, and moves those in which a
-// particle moves far.
+// is not from 0.2 µm to 16 m long, or ends within rounding of a power of two, moves those in which a
+// particle moves far, and takes the part across where the rope turns by much.
 #pragma once
 
 #include <algorithm>
@@ -248,44 +248,37 @@ public:
                                                                  L::multiply_unsigned(scale, inverse))));
     }
 
-    // False: one of them moves too far, and nothing was written.
+    // False: the rope turns by much at one of them, and nothing was written.
     LKS_FORCE_INLINE static bool cross(ChainAcross& task, std::uint32_t i) {
-        R tangent[3];
+        R t[3];
         R squared = L::set(0);
         for (int axis = 0; axis < 3; ++axis) {
             const std::int64_t* const n = task.directions[axis] + i;
-            tangent[axis] = L::add_32(L::template shift_right_32_signed<1>(L::load(n)),
-                                      L::template shift_right_32_signed<1>(L::load(n - 1)));
-            squared = L::add(squared, L::multiply_signed(tangent[axis], tangent[axis]));
+            t[axis] = L::add_32(L::template shift_right_32_signed<1>(L::load(n)),
+                                L::template shift_right_32_signed<1>(L::load(n - 1)));
+            squared = L::add(squared, L::multiply_signed(t[axis], t[axis]));
         }
-        const R folded = L::subtract(squared, L::set(static_cast<std::int64_t>(least_tangent_squared)));
-        const R up = L::template shift_right<33>(L::leading_zeros_32(squared));
-        const R y_31 =
-            reciprocal_sqrt(L::template shift_right<32>(L::shift_left_each(squared, L::add(up, up))));
-        const R y = L::subtract(y_31, L::template shift_right<31>(y_31));
-        const R down = L::subtract(L::set(32), up);
-        const R after = L::shift_right_each(L::set(lift), down);
-        R v[3];
-        R high = L::set(0);
-        R low = L::set(0);
-        for (int axis = 0; axis < 3; ++axis) {
-            v[axis] = L::subtract(L::load(task.changes[axis] + i), L::load(task.movements[axis] + i));
-            const R unit = L::subtract(
-                L::shift_right_each(L::add(L::multiply_signed(tangent[axis], y), L::set(lift)), down), after);
-            tangent[axis] = L::select_by_sign(unit, L::set(0), folded);
-            high = L::add(high, L::multiply_signed(L::template shift_right<30>(v[axis]), tangent[axis]));
-            low = L::add(low, L::multiply_signed(L::bit_and(v[axis], L::set(low_30)), tangent[axis]));
-        }
-        const R along = L::add(high, signed_upper(low));
-        if (L::any(L::template shift_right<62>(L::add(along, L::set(std::int64_t{1} << 61))))) {
+        const R lifted =
+            L::template shift_right<30>(L::subtract(L::set(tangent_one + (greatest_turn << 30)), squared));
+        if (L::any(L::template shift_right<greatest_turn_bits + 1>(lifted))) {
             return false;
         }
-        const R along_high = L::template shift_right<30>(along);
-        const R along_low = L::bit_and(along, L::set(low_30));
+        const R e = L::subtract(lifted, L::set(greatest_turn));
+        const R e_2 = L::template shift_right<30>(L::multiply_signed(e, e));
+        const R e_4 = L::template shift_right<30>(L::multiply_signed(e_2, e_2));
+        const R sum = L::add(e, e_2);
+        const R excess = L::add(sum, signed_upper(L::multiply_signed(sum, L::add(e_2, e_4))));
+        R v[3];
+        R product = L::set(0);
         for (int axis = 0; axis < 3; ++axis) {
-            const R kept = L::add(L::multiply_signed(along_high, tangent[axis]),
-                                  signed_upper(L::multiply_signed(along_low, tangent[axis])));
-            const R across = L::subtract(v[axis], kept);
+            v[axis] = L::subtract(L::load(task.changes[axis] + i), L::load(task.movements[axis] + i));
+            product = L::add(product, share_32(v[axis], t[axis]));
+        }
+        product = L::template shift_left<3>(product);
+        const R along = L::add(product, share_32(product, L::template shift_left<2>(excess)));
+        for (int axis = 0; axis < 3; ++axis) {
+            const R half = share_32(along, t[axis]);
+            const R across = L::subtract(v[axis], L::add(half, half));
             std::int64_t* const to = task.movements[axis] + i;
             L::store(to, L::add(L::load(to), across));
             L::store(task.changes[axis] + i, across);
@@ -322,6 +315,13 @@ private:
     // v / 2^30, rounded down.
     LKS_FORCE_INLINE static R signed_upper(R v) {
         return L::subtract(L::template shift_right<30>(L::add(v, L::set(lift))), L::set(lift >> 30));
+    }
+
+    // a·b / 2^32, rounded down; of b the low half counts.
+    LKS_FORCE_INLINE static R share_32(R a, R b) {
+        const R high = L::template shift_right<32>(L::add(a, L::set(std::int64_t{1} << 31)));
+        const R low = L::template shift_right<32>(L::add(L::multiply_signed(a, b), L::set(lift)));
+        return L::add(L::multiply_signed(high, b), L::subtract(low, L::set(lift >> 32)));
     }
 
     // a·b / 2^31 of what is not negative, rounded down.

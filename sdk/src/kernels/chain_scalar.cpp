@@ -6,12 +6,11 @@
 #include "fixed/formats.h"
 #include "fixed/vector.h"
 #include "kernels/bounded.h"
+#include "kernels/force_inline.h"
 #include "kernels/measure_segment.h"
 
 namespace lks {
 namespace {
-
-constexpr std::int64_t low_30 = direction_one - 1;
 
 // a·b / 2^31, rounded down.
 std::int64_t share_31(std::int64_t a, std::uint32_t b) {
@@ -33,37 +32,97 @@ void store(std::int64_t* const (&arrays)[3], std::uint32_t i, const fixed::Vec3&
     arrays[2][i] = v.z;
 }
 
-// Of its low halves.
-fixed::Vec3 half_direction(const fixed::Vec3& v) {
-    return {static_cast<std::int32_t>(v.x) >> 1, static_cast<std::int32_t>(v.y) >> 1,
-            static_cast<std::int32_t>(v.z) >> 1};
+// Of the low half.
+LKS_FORCE_INLINE std::int64_t half_component(std::int64_t v) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(v) << 32) >> 33;
 }
 
-std::int64_t direction_share(std::int64_t value, std::int64_t direction) {
-    return fixed::multiply_shift(value, static_cast<std::int32_t>(direction), direction_fraction_bits);
+LKS_FORCE_INLINE fixed::Vec3 half_direction(const fixed::Vec3& v) {
+    return {half_component(v.x), half_component(v.y), half_component(v.z)};
 }
 
-// v less what is along t, which is half the sum of two directions.
-fixed::Vec3 across_tangent(const fixed::Vec3& t, const fixed::Vec3& v) {
-    const auto squared = static_cast<std::uint64_t>(t.x * t.x + t.y * t.y + t.z * t.z);
+// a·b / 2^32, rounded down.
+LKS_FORCE_INLINE std::int64_t share_32(std::int64_t a, std::int64_t b) {
+    return fixed::multiply_signed(as_it_stands(a), as_it_stands(b * (std::int64_t{1} << 32))).hi;
+}
+
+// What of a vector is along a rope: its product with t, times 1/|t|², along t. Only where a rope turns by
+// much is t a unit vector.
+struct Tangent {
+    fixed::Vec3 t;
+    std::int64_t excess; // 1/|t|² − 1, direction_fraction_bits
+};
+
+// Of half the sum of two directions that turn by more than 29 degrees.
+Tangent turned_tangent(const fixed::Vec3& t, std::uint64_t squared) {
     if (squared < least_tangent_squared) {
-        return v;
+        return {{0, 0, 0}, 0};
     }
     const int up = std::countl_zero(squared) >> 1;
     const std::int64_t y_31 =
         fixed::reciprocal_sqrt_mantissa(static_cast<std::uint32_t>(squared << (2 * up) >> 32));
     const std::int64_t y = y_31 - (y_31 >> 31);
-    const fixed::Vec3 n{t.x * y >> (32 - up), t.y * y >> (32 - up), t.z * y >> (32 - up)};
-    const std::int64_t high = (v.x >> direction_fraction_bits) * n.x +
-                              (v.y >> direction_fraction_bits) * n.y + (v.z >> direction_fraction_bits) * n.z;
-    const std::int64_t low = (v.x & low_30) * n.x + (v.y & low_30) * n.y + (v.z & low_30) * n.z;
-    const std::int64_t along = high + (low >> direction_fraction_bits);
-    // A component may be one.
-    const auto left = [along](std::int64_t from, std::int64_t direction) {
-        return from - (along >> direction_fraction_bits) * direction -
-               ((along & low_30) * direction >> direction_fraction_bits);
-    };
-    return {left(v.x, n.x), left(v.y, n.y), left(v.z, n.z)};
+    return {{t.x * y >> (32 - up), t.y * y >> (32 - up), t.z * y >> (32 - up)}, 0};
+}
+
+LKS_FORCE_INLINE Tangent tangent_between(const fixed::Vec3& near, const fixed::Vec3& far) {
+    const fixed::Vec3 t{near.x + far.x, near.y + far.y, near.z + far.z};
+    const std::int64_t squared = t.x * t.x + t.y * t.y + t.z * t.z;
+    const std::int64_t e = (tangent_one - squared) >> direction_fraction_bits;
+    if ((e + greatest_turn) >> (greatest_turn_bits + 1) != 0) {
+        return turned_tangent(t, static_cast<std::uint64_t>(squared));
+    }
+    // e + e² + e³ + e⁴ + e⁵ + e⁶; the next is 2^-28 at most.
+    const std::int64_t e_2 = e * e >> direction_fraction_bits;
+    const std::int64_t e_4 = e_2 * e_2 >> direction_fraction_bits;
+    const std::int64_t sum = e + e_2;
+    return {t, sum + (sum * (e_2 + e_4) >> direction_fraction_bits)};
+}
+
+struct CrossedParticle {
+    fixed::Vec3 movement;
+    fixed::Vec3 across;
+};
+
+// Writes the particle's. `near` is half the direction before it, and becomes that behind.
+LKS_FORCE_INLINE CrossedParticle cross_particle(ChainAcross& task, std::uint32_t i, fixed::Vec3& near) {
+    const fixed::Vec3 far = half_direction(vector_at(task.directions, i));
+    const Tangent tangent = tangent_between(near, far);
+    const fixed::Vec3 before = vector_at(task.movements, i);
+    const fixed::Vec3 wanted = vector_at(task.changes, i);
+    const fixed::Vec3 v = wanted - before;
+    // Twice v·t, and that over |t|².
+    const std::int64_t product =
+        8 * (share_32(v.x, tangent.t.x) + share_32(v.y, tangent.t.y) + share_32(v.z, tangent.t.z));
+    const std::int64_t along = product + share_32(product, 4 * tangent.excess);
+    const fixed::Vec3 kept{2 * share_32(along, tangent.t.x), 2 * share_32(along, tangent.t.y),
+                           2 * share_32(along, tangent.t.z)};
+    const CrossedParticle crossed{wanted - kept, v - kept};
+    store(task.movements, i, crossed.movement);
+    store(task.changes, i, crossed.across);
+    near = far;
+    return crossed;
+}
+
+// Whether the segment with this direction, between two particles, is left off its length.
+LKS_FORCE_INLINE bool leaves_off(const ChainAcross& task, std::uint32_t segment, const fixed::Vec3& apart,
+                                 const fixed::Vec3& changed) {
+    const std::int64_t rest = task.rest_lengths[segment];
+    if (!all_within(apart, rest >> turn_shift)) {
+        return true;
+    }
+    if (all_within(changed, rest >> (error_shift + 1))) { // and so in any direction
+        return false;
+    }
+    const fixed::Vec3 n = vector_at(task.directions, segment);
+    const std::int64_t quarter =
+        share_32(changed.x, n.x) + share_32(changed.y, n.y) + share_32(changed.z, n.z);
+    return !within(quarter, rest >> (error_shift + 2));
+}
+
+fixed::Vec3 half_direction_before(const ChainAcross& task, std::uint32_t i) {
+    return half_direction(
+        {(task.directions[0] - 1)[i], (task.directions[1] - 1)[i], (task.directions[2] - 1)[i]});
 }
 
 } // namespace
@@ -154,40 +213,18 @@ void move_chain_scalar(ChainMoves& moves, std::uint32_t first, std::uint32_t cou
 }
 
 void cross_particles_scalar(ChainAcross& task, std::uint32_t first, std::uint32_t count) {
-    const fixed::Vec3 before{(task.directions[0] - 1)[first], (task.directions[1] - 1)[first],
-                             (task.directions[2] - 1)[first]};
-    fixed::Vec3 near = half_direction(before);
+    fixed::Vec3 near = half_direction_before(task, first);
     for (std::uint32_t i = first; i < first + count; ++i) {
-        const fixed::Vec3 far = half_direction(vector_at(task.directions, i));
-        const fixed::Vec3 movement = vector_at(task.movements, i);
-        const fixed::Vec3 across = across_tangent(near + far, vector_at(task.changes, i) - movement);
-        store(task.movements, i, movement + across);
-        store(task.changes, i, across);
-        near = far;
+        static_cast<void>(cross_particle(task, i, near));
     }
 }
 
 bool leaves_off_scalar(const ChainAcross& task, std::uint32_t first, std::uint32_t count) {
-    fixed::Vec3 movement = vector_at(task.movements, first - 1);
-    fixed::Vec3 change = vector_at(task.changes, first - 1);
     for (std::uint32_t i = first; i < first + count; ++i) {
-        const fixed::Vec3 next_movement = vector_at(task.movements, i);
-        const fixed::Vec3 next_change = vector_at(task.changes, i);
-        const std::int64_t rest = task.rest_lengths[i - 1];
-        if (!all_within(next_movement - movement, rest >> turn_shift)) {
+        if (leaves_off(task, i - 1, vector_at(task.movements, i) - vector_at(task.movements, i - 1),
+                       vector_at(task.changes, i) - vector_at(task.changes, i - 1))) {
             return true;
         }
-        const fixed::Vec3 changed = next_change - change;
-        if (!all_within(changed, rest >> (error_shift + 1))) { // or else in any direction
-            const fixed::Vec3 n = vector_at(task.directions, i - 1);
-            const std::int64_t along = direction_share(changed.x, n.x) + direction_share(changed.y, n.y) +
-                                       direction_share(changed.z, n.z);
-            if (!within(along, rest >> error_shift)) {
-                return true;
-            }
-        }
-        movement = next_movement;
-        change = next_change;
     }
     return false;
 }
@@ -281,8 +318,16 @@ void share_chain_scalar(ChainShares& shares) {
 }
 
 bool cross_chain_scalar(ChainAcross& task) {
-    cross_particles_scalar(task, 0, task.count);
-    return leaves_off_scalar(task, 1, task.count - 1);
+    fixed::Vec3 near = half_direction_before(task, 0);
+    CrossedParticle before = cross_particle(task, 0, near);
+    bool off = false;
+    for (std::uint32_t i = 1; i < task.count; ++i) {
+        const CrossedParticle crossed = cross_particle(task, i, near);
+        off = off ||
+              leaves_off(task, i - 1, crossed.movement - before.movement, crossed.across - before.across);
+        before = crossed;
+    }
+    return off;
 }
 
 } // namespace lks

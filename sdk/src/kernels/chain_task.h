@@ -105,11 +105,16 @@ inline constexpr int turn_shift = 5;
 inline constexpr int error_shift = 11;
 // Where a rope folds back by more than 176 degrees there is no "along"; of half the sum of two directions.
 inline constexpr std::uint64_t least_tangent_squared = std::uint64_t{1} << 50;
+inline constexpr std::int64_t tangent_one = std::int64_t{1} << 60;
+// Up to a turn of 29 degrees, which makes the square a sixteenth less than one, a series finds its
+// reciprocal.
+inline constexpr int greatest_turn_bits = 26;
+inline constexpr std::int64_t greatest_turn = std::int64_t{1} << greatest_turn_bits;
 
 // Of what the second pass changed, the part across the rope.
 struct ChainAcross {
     std::uint32_t count;               // of particles: all of the rope
-    const std::int64_t* directions[3]; // with one before the first
+    const std::int64_t* directions[3]; // with one before the first and one behind the last
     const std::int64_t* rest_lengths;
     std::int64_t* movements[3]; // without the pass; becomes what is left with it
     std::int64_t* changes[3];   // with the pass; becomes by how much more that is

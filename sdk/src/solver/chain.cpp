@@ -491,11 +491,17 @@ private:
         task.count = count_ + 1;
         task.rest_lengths = chain_.rest_lengths.data();
         for (int axis = 0; axis < 3; ++axis) {
-            task.directions[axis] = work_.directions[axis];
+            std::int64_t* const directions = work_.directions[axis];
+            *(directions - 1) = directions[0]; // ends have that of their one segment
+            directions[count_] = directions[count_ - 1];
+            task.directions[axis] = directions;
             task.movements[axis] = work_.movements[axis];
             task.changes[axis] = work_.gathered[axis];
         }
         off_ = kernels_.chain.cross(task);
+        for (std::int64_t* const directions : work_.directions) {
+            directions[count_] = 0;
+        }
         if (chain_.pinned_count == 0) {
             for (int axis = 0; axis < 3; ++axis) {
                 take_mean_off(work_.movements[axis], work_.gathered[axis]);

@@ -93,7 +93,7 @@ public:
         }
     }
 
-    std::int64_t* directions[3]; // zero: none; and before the first
+    std::int64_t* directions[3]; // zero: none; with room before the first
     std::int64_t* movements[3];  // Coordinate
     std::int64_t* gathered[3];
     std::int64_t* carried;     // this times the multiplier before, carried_bits ...
