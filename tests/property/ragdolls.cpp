@@ -247,27 +247,30 @@ TEST_CASE("thirty ragdolls that fall into a pit stay in one piece and fall aslee
     }
 }
 
-// Feet under chests rattle where they can't come free; this layout was awake after 15 s as long as that
-// counted.
-TEST_CASE("a pile in which feet are jammed falls asleep, too") {
-    World world(world_def(60, 8));
-    add_pit(world);
-    Ragdolls ragdolls(world);
-    std::mt19937 random(9);
-    ragdolls.add_pile([&] {
-        const double low = random();
-        return 0.04 * ((low + random() * 0x1p32) * 0x1p-64 - 0.5);
-    });
-    int tick = 0;
-    for (; tick < ticks_of_fall + 600 && (tick == 0 || lks_world_awake_body_count(world) > 0); ++tick) {
-        ragdolls.step();
+// Feet under chests, which nothing frees as long as only they are pushed: of these layouts the first was
+// awake after 15 s, and others ended with 4 to 10 mm.
+TEST_CASE("piles in which feet are jammed come apart and fall asleep, too") {
+    for (const std::uint32_t seed : {9u, 32u, 38u, 47u, 48u}) {
+        World world(world_def(60, 8));
+        add_pit(world);
+        Ragdolls ragdolls(world);
+        std::mt19937 random(seed);
+        ragdolls.add_pile([&] {
+            const double low = random();
+            return 0.04 * ((low + random() * 0x1p32) * 0x1p-64 - 0.5);
+        });
+        int tick = 0;
+        for (; tick < ticks_of_fall + 600 && (tick == 0 || lks_world_awake_body_count(world) > 0); ++tick) {
+            ragdolls.step();
+        }
+        const double overlap = ragdolls.overlap();
+        INFO("layout " << seed << ": asleep after " << tick / 60.0 << " s, " << 1e3 * overlap
+                       << " mm of overlap");
+        CHECK(lks_world_awake_body_count(world) == 0);
+        CHECK(overlap < 2e-3);
+        CHECK(ragdolls.worst() < 5e-3);
+        CHECK(ragdolls.limit() < 5);
     }
-    const double overlap = ragdolls.overlap();
-    INFO("asleep after " << tick / 60.0 << " s, " << 1e3 * overlap << " mm of overlap");
-    CHECK(lks_world_awake_body_count(world) == 0);
-    CHECK(overlap < 8e-3);
-    CHECK(ragdolls.worst() < 5e-3);
-    CHECK(ragdolls.limit() < 5);
 }
 
 TEST_CASE("a crowd that falls upon each other gains no energy") {

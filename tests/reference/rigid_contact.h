@@ -212,6 +212,22 @@ public:
         }
     }
 
+    // How far figures have to part at the end of a tick, or, less than nothing, may close: a third of what
+    // goes beyond a millimetre. False: nothing is near.
+    bool wants_apart(Scalar most, Scalar& apart) const {
+        bool any = false;
+        for (const Point& point : points) {
+            if (point.active) {
+                const Scalar beyond = -point.separation - Scalar(0.001);
+                const Scalar own = jointed && beyond > 0 ? std::min(beyond / 3, most)
+                                                         : std::min(-point.separation, Scalar(0));
+                apart = any ? std::max(apart, own) : own;
+                any = true;
+            }
+        }
+        return any;
+    }
+
 private:
     // From the centres of mass to where the surfaces meet, in world axes.
     struct Levers {

@@ -67,6 +67,7 @@ public:
             for (int k = 0; k < settings_.substeps; ++k) {
                 substep();
             }
+            part_figures();
         }
     }
 
@@ -154,6 +155,48 @@ private:
             });
         }
         undo_errors();
+    }
+
+    // As wholes, by the contacts of the last substep; what hangs on an anchor stays.
+    void part_figures() {
+        std::vector<Scalar> masses(bodies_.size());
+        std::vector<Vec> shifts(bodies_.size());
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            masses[figures_[i]] += bodies_[i].moves ? bodies_[i].mass : 0;
+        }
+        std::vector<Scalar> weights(bodies_.size());
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            weights[i] = masses[i] > 0 ? 1 / masses[i] : 0;
+        }
+        for (const Joint& joint : joints_) {
+            if (!bodies_[joint.a].moves || !bodies_[joint.b].moves) {
+                weights[figures_[joint.a]] = weights[figures_[joint.b]] = 0;
+            }
+        }
+        const auto part = [&](const Contact& contact) {
+            const std::size_t a = figures_[contact.a];
+            const std::size_t b = figures_[contact.b];
+            const Scalar weight = weights[a] + weights[b];
+            Scalar apart = 0;
+            if (a == b || weight == 0 ||
+                !contact.wants_apart(Scalar(0.4) / static_cast<Scalar>(settings_.tick_rate_hz), apart)) {
+                return;
+            }
+            const Scalar missing = apart - contact.normal.dot(shifts[b] - shifts[a]);
+            if (missing > 0) {
+                shifts[a] = shifts[a] - contact.normal * (missing * weights[a] / weight);
+                shifts[b] = shifts[b] + contact.normal * (missing * weights[b] / weight);
+            }
+        };
+        for (int sweep = 0; sweep < 4; ++sweep) {
+            std::for_each(contacts_.begin(), contacts_.end(), part);
+            std::for_each(contacts_.rbegin(), contacts_.rend(), part);
+        }
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            if (bodies_[i].moves) {
+                bodies_[i].position = bodies_[i].position + shifts[figures_[i]];
+            }
+        }
     }
 
     // An impact may cause the next one: forward and back, until nothing strikes any more.

@@ -33,6 +33,21 @@ struct IslandRest {
     bool squeezed;       // any of them is
 };
 
+// How far a figure is moved as a whole (rigid/figure_overlaps.h).
+struct FigureShift {
+    InverseMass inverse_mass;
+    std::uint64_t masses; // all of its bodies in the heaviest one's, 30 fraction bits
+    fixed::Vec3 shift;
+};
+
+// Two figures, or a figure and what stays, that are to part by so much, or, less than nothing, may close.
+struct FigurePair {
+    std::uint32_t a, b;
+    PairShares shares;
+    fixed::Direction normal; // from a to b
+    std::int64_t parted;
+};
+
 // What a load puts into a slot: nothing, what is defined as what is there, or something else.
 enum class Loaded : std::uint8_t { nothing, same, other };
 
@@ -86,7 +101,9 @@ struct RigidScene {
     Array<std::int32_t>
         figure_shares; // by awake figure: what is added to its pushes (rigid/carried_pushes.h)
     Array<std::uint8_t> figures_changed; // by the least body: while shares are added
-    Array<IslandRest> island_rests;      // by the least body of an island
+    Array<FigureShift> figure_shifts;    // by the least body; and one for what stays
+    Array<FigurePair> figure_pairs;
+    Array<IslandRest> island_rests; // by the least body of an island
     // Objects that go through the tick together with bodies and with each other: a flag by slot, empty where
     // there is none; their indices; and whom each may touch: object << 32 | body, ascending.
     Array<std::uint8_t> is_coupled;

@@ -3,6 +3,7 @@
 #include "rigid/articulation.h"
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"
+#include "rigid/figure_overlaps.h"
 #include "rigid/figures.h"
 #include "rigid/rigid_substep.h"
 #include "rigid/sleep.h"
@@ -118,6 +119,7 @@ private:
         for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
             rigid_substep.run(substep);
         }
+        part_figures(scene_, world_.rate.ticks_per_second);
     }
 
     void finish() {
