@@ -4,6 +4,8 @@
 #include <new>
 #include <utility>
 
+#include "solver/side_by_side.h"
+
 namespace lks_bench {
 
 Projections::Projections(lks_world* world) : world_(world) {
@@ -25,14 +27,40 @@ Projections::Projections(lks_world* world) : world_(world) {
         prepare_distances(object.asset(), object.coefficients(), arrays, work);
         work_.push_back(std::move(work));
     }
+    side_by_side_.resize(work_.size(), 1);
+    places_.resize(work_.size());
+    put_side_by_side();
 }
 
 void Projections::run(std::uint32_t passes) {
-    for (const lks::DistanceWork& object : work_) {
+    for (std::size_t first = 0; first < work_.size(); first += side_by_side_[first]) {
         for (std::uint32_t pass = 0; pass < passes; ++pass) {
-            for (const lks::DistanceTask& task : object.tasks) {
+            for (const lks::DistanceTask& task : work_[first].tasks) {
                 world_->kernels->project_distances(task);
             }
+        }
+    }
+}
+
+void Projections::put_side_by_side() {
+    const auto object = [this](std::size_t i) -> lks::Object& { return *world_->objects[i].object; };
+    const auto may = [&](std::size_t i) { return may_go_side_by_side(*world_->kernels, object(i)); };
+    for (std::size_t first = 0; first < work_.size(); first += side_by_side_[first]) {
+        std::size_t end = first + 1;
+        while (may(first) && end < work_.size() && end - first < lks::most_side_by_side && may(end) &&
+               are_alike(object(first), object(end))) {
+            ++end;
+        }
+        if (end - first < lks::least_side_by_side) {
+            continue;
+        }
+        side_by_side_[first] = end - first;
+        for (std::size_t i = first; i < end; ++i) {
+            places_[i] = distance_between(object(first), object(i));
+        }
+        for (lks::DistanceTask& task : work_[first].tasks) {
+            task.objects = places_.data() + first;
+            task.object_count = static_cast<std::uint32_t>(end - first);
         }
     }
 }

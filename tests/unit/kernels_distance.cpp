@@ -216,10 +216,7 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
     return problem;
 }
 
-Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Problem problem,
-               ConstraintRange range) {
-    const std::uint32_t n = batch.particles;
-    std::int64_t* x = problem.positions.data();
+BatchPart make_part(const Batch& batch, const Problem& problem, ConstraintRange range) {
     BatchPart part{};
     part.range = range;
     part.runs = batch.runs.data();
@@ -231,6 +228,12 @@ Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Pro
     part.whole = range.first == 0 && range.last == batch.constraints.size();
     part.first_single = batch.first_single;
     part.unequal_shares = problem.unequal_shares;
+    return part;
+}
+
+DistanceTask make_task(const Batch& batch, const Kind& kind, Problem& problem, const BatchPart& part) {
+    const std::uint32_t n = batch.particles;
+    std::int64_t* x = problem.positions.data();
     DistanceTask task{};
     task.parts = &part;
     task.part_count = 1;
@@ -250,8 +253,30 @@ Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Pro
                    x + 4 * n,
                    x + 5 * n,
                    kind.multiplier ? problem.multipliers.data() : nullptr};
-    kernels.project_distances(task);
+    return task;
+}
+
+Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Problem problem,
+               ConstraintRange range) {
+    const BatchPart part = make_part(batch, problem, range);
+    kernels.project_distances(make_task(batch, kind, problem, part));
     return problem;
+}
+
+// The runs of several problems that have all but the positions in common.
+void solve_side_by_side(const Kernels& kernels, const Batch& batch, const Kind& kind,
+                        std::vector<Problem>& problems) {
+    const BatchPart part = make_part(batch, problems[0], {0, batch.first_single});
+    DistanceTask task = make_task(batch, kind, problems[0], part);
+    std::vector<std::ptrdiff_t> places;
+    for (const Problem& problem : problems) {
+        const auto bytes = reinterpret_cast<std::intptr_t>(problem.positions.data()) -
+                           reinterpret_cast<std::intptr_t>(problems[0].positions.data());
+        places.push_back(bytes / static_cast<std::intptr_t>(sizeof(std::int64_t)));
+    }
+    task.objects = places.data();
+    task.object_count = static_cast<std::uint32_t>(places.size());
+    kernels.project_distances(task);
 }
 
 } // namespace
@@ -308,6 +333,47 @@ TEST_CASE("kernels: parts of every length about which groups begin to roll are p
                 }
             }
             CHECK(different == 0);
+        }
+    }
+}
+
+TEST_CASE("kernels: three to sixteen objects side by side move as each does by itself") {
+    for (const Kernels* kernels : test::wide_kernels()) {
+        if (!kernels->side_by_side) {
+            continue;
+        }
+        test::Random random(41);
+        for (const Kind& kind : kinds) {
+            if (kind.multiplier) {
+                continue;
+            }
+            INFO(std::string(simd_name(kernels->level)), ": ", std::string(kind.name));
+            int different = 0;
+            int unchanged = 0;
+            for (std::uint32_t count = least_side_by_side; count <= most_side_by_side; ++count) {
+                for (const auto& lengths : {lengths_up_to(40), {50}, {10, 9}, {1}, {97, 16, 2}}) {
+                    const Batch batch(random, lengths);
+                    std::vector<Problem> problems(count, make_problem(random, batch, kind));
+                    const int about = problems[0].parameters.difference_shift + 20;
+                    for (Problem& problem : problems) {
+                        for (std::size_t i = 0; i < 3 * std::size_t{batch.particles}; ++i) {
+                            problem.positions[i] += signed_below(random, about);
+                        }
+                    }
+                    std::vector<Problem> expected;
+                    for (const Problem& problem : problems) {
+                        expected.push_back(
+                            solved(kernels_scalar, batch, kind, problem, {0, batch.first_single}));
+                        unchanged += expected.back().positions == problem.positions ? 1 : 0;
+                    }
+                    solve_side_by_side(*kernels, batch, kind, problems);
+                    for (std::uint32_t i = 0; i < count; ++i) {
+                        different += problems[i].positions != expected[i].positions ? 1 : 0;
+                    }
+                }
+            }
+            CHECK(different == 0);
+            CHECK(unchanged == 0);
         }
     }
 }

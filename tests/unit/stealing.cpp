@@ -39,6 +39,7 @@ const lks::Kernels& prompt() {
 const lks::Kernels& dawdling() {
     static const lks::Kernels kernels{
         prompt().level,
+        prompt().side_by_side,
         [](const lks::DistanceTask& task) {
             dawdle();
             prompt().project_distances(task);

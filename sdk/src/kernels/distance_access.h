@@ -37,8 +37,8 @@ struct RunAccess {
     static constexpr bool whole = true;
 
     std::uint32_t constraint;
-    std::uint32_t a;
-    std::uint32_t b;
+    std::ptrdiff_t a;
+    std::ptrdiff_t b;
     // So many at its beginning have been in a group before, and stay as they are.
     std::uint32_t done;
 
@@ -47,7 +47,7 @@ struct RunAccess {
     template <typename Use>
     void for_each(const Use& use) const {
         for (std::uint32_t lane = done; lane < 2 * L::half; ++lane) {
-            use(constraint + lane, a + lane, b + lane);
+            use(constraint + lane, a + place_of(lane), b + place_of(lane));
         }
     }
     // Nothing for them.
@@ -117,8 +117,10 @@ struct PartialAccess {
         const LaneValues<L> a(plus_a);
         const LaneValues<L> b(minus_b);
         for (std::uint32_t lane = 0; lane < count; ++lane) {
-            x[run.a + lane] = wrapping_add(x[run.a + lane], a.values[lane]);
-            x[run.b + lane] = wrapping_subtract(x[run.b + lane], b.values[lane]);
+            std::int64_t* x_a = x + run.a + lane;
+            std::int64_t* x_b = x + run.b + lane;
+            *x_a = wrapping_add(*x_a, a.values[lane]);
+            *x_b = wrapping_subtract(*x_b, b.values[lane]);
         }
     }
     LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
@@ -134,7 +136,7 @@ struct PartialAccess {
     template <typename Use>
     void for_each(const Use& use) const {
         for (std::uint32_t lane = 0; lane < count; ++lane) {
-            use(run.constraint + lane, run.a + lane, run.b + lane);
+            use(run.constraint + lane, run.a + place_of(lane), run.b + place_of(lane));
         }
     }
 
@@ -178,7 +180,7 @@ struct SinglesAccess {
     template <typename Use>
     void for_each(const Use& use) const {
         for (std::uint32_t i = 0; i < count; ++i) {
-            use(constraint + i, ends[i].a, ends[i].b);
+            use(constraint + i, place_of(ends[i].a), place_of(ends[i].b));
         }
     }
     static void clear_done(const Factors<L>&) {}

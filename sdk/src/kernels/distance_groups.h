@@ -254,16 +254,20 @@ private:
     // f from g. False: a lane leaves the fast range.
     template <typename Access>
     LKS_FORCE_INLINE bool soften(const Access& at, StagedGroup<L>& group, const Lengths& lengths) const {
-        const bool relaxed = multiplier && task_.relaxations != nullptr;
+        [[maybe_unused]] const bool relaxed = task_.relaxations != nullptr;
         if constexpr (damped) {
             const G f = damp(group.motion, group.f, lengths);
-            if (relaxed) {
-                return relax_by_multiplier(at, lengths, f, group.f);
+            if constexpr (multiplier) {
+                if (relaxed) {
+                    return relax_by_multiplier(at, lengths, f, group.f);
+                }
             }
             group.f = F::low(f);
-        } else if (relaxed) {
-            const G f = F::multiply_signed(group.f, F::splat(F::constant(1)));
-            return relax_by_multiplier(at, lengths, f, group.f);
+        } else if constexpr (multiplier) {
+            if (relaxed) {
+                const G f = F::multiply_signed(group.f, F::splat(F::constant(1)));
+                return relax_by_multiplier(at, lengths, f, group.f);
+            }
         }
         return true;
     }

@@ -12,6 +12,7 @@
 #include "kernels/distance_groups.h"
 #include "kernels/distance_rolling.h"
 #include "kernels/distance_scalar_loop.h"
+#include "kernels/distance_side_by_side.h"
 
 namespace lks {
 namespace {
@@ -64,7 +65,7 @@ public:
     LKS_FORCE_INLINE bool may_differ(const Access& at) const {
         return is_in(unequal_, at.first_constraint());
     }
-    LKS_NEVER_INLINE void project_one(std::uint32_t constraint, std::uint32_t a, std::uint32_t b) const {
+    LKS_NEVER_INLINE void project_one(std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b) const {
         project_one_(constraint, a, b);
     }
 
@@ -104,7 +105,7 @@ private:
     template <bool alike, typename Access>
     LKS_FORCE_INLINE void move(const Access& at, const StagedGroup<L>& group) const {
         if (group.plain) {
-            at.for_each([this](std::uint32_t constraint, std::uint32_t a, std::uint32_t b) {
+            at.for_each([this](std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b) {
                 project_one(constraint, a, b);
             });
         } else if (alike || !may_differ(at)) {
@@ -185,7 +186,7 @@ private:
     LKS_FORCE_INLINE RunAccess<L> group() const {
         const std::uint32_t done = at_ + lanes > in_groups_ ? at_ + lanes - in_groups_ : 0;
         const std::uint32_t from = at_ - done;
-        return {run_.constraint + from, run_.a + from, run_.b + from, done};
+        return {run_.constraint + from, place_of(run_.a + from), place_of(run_.b + from), done};
     }
 
     void begin_run(const RunPart& run) {
@@ -196,7 +197,7 @@ private:
         in_groups_ = alone ? run.count - left : run.count < lanes ? 0 : run.count;
         if (alone) {
             for (std::uint32_t i = in_groups_; i < run.count; ++i) {
-                stages_.project_one(run.constraint + i, run.a + i, run.b + i);
+                stages_.project_one(run.constraint + i, place_of(run.a + i), place_of(run.b + i));
             }
         } else if (run.count < lanes) {
             add_short();
@@ -206,8 +207,10 @@ private:
     void add_short() {
         const bool spares = run_.count + run_.spare >= lanes;
         // Lanes behind the end are read, so nobody else may write them meanwhile.
-        short_[short_count_++] = {
-            {run_.constraint, run_.a, run_.b, 0}, run_.count, spares || part_.whole, spares};
+        short_[short_count_++] = {{run_.constraint, place_of(run_.a), place_of(run_.b), 0},
+                                  run_.count,
+                                  spares || part_.whole,
+                                  spares};
         if (short_count_ == PartialAccess<L>::together) {
             stages_.project_apart(short_, short_count_);
             short_count_ = 0;
@@ -286,7 +289,8 @@ inline void project_singles(const DistanceTask& task, const BatchPart& part, con
         }
     }
     for (; rest.first < rest.last; ++rest.first) {
-        stages.project_one(rest.first, task.constraints[rest.first].a, task.constraints[rest.first].b);
+        const Constraint& ends = task.constraints[rest.first];
+        stages.project_one(rest.first, place_of(ends.a), place_of(ends.b));
     }
 }
 
@@ -299,6 +303,12 @@ inline void project_in_groups(const DistanceTask& task) {
     for (std::uint32_t p = 0; p < task.part_count; ++p) {
         const BatchPart& part = task.parts[p];
         const Stages<L, Groups, ProjectOne> stages(groups, project_one, part.unequal_shares);
+        if constexpr (L::rolls_from != 0 && !multiplier) {
+            if (task.objects != nullptr) {
+                SideBySide<L, Groups, Stages<L, Groups, ProjectOne>>(task, part, groups, stages).project();
+                continue;
+            }
+        }
         if (part.run_count != 0) {
             project_runs<L, L::rolls_from != 0 && !multiplier>(part, groups, stages);
         }

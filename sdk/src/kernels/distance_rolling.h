@@ -20,23 +20,23 @@ public:
 
     template <typename Runs>
     LKS_FORCE_INLINE void project(Runs& runs) {
-        RunAccess<L> at;
-        if (!runs.take_one(at)) {
+        if (!runs.take_one(now_->at)) {
             return;
         }
-        begin(at);
-        while (runs.take_one(at)) {
-            roll_through(runs, at);
+        begin();
+        while (runs.take_one(next_->at)) {
+            roll_through(runs);
         }
         // Nobody is behind the last one: its own differences again.
-        roll_through(runs, now_->at);
+        next_->at = now_->at;
+        roll_through(runs);
         settle(*before_);
     }
 
 private:
     // Before the first one it moves itself, by nothing.
-    void begin(const RunAccess<L>& at) {
-        now_->at = before_->at = at;
+    void begin() {
+        before_->at = now_->at;
         groups_.begin(*now_, sums_);
         now_->apart = is_apart(*now_);
         std::copy_n(now_->staged.d, 3, before_->staged.d);
@@ -47,7 +47,7 @@ private:
     // A group and those that follow it in its run, until one is to move apart. There is no call among them:
     // compilers would keep in memory what lives longer than a call.
     template <typename Runs>
-    LKS_NEVER_INLINE void roll_through(Runs& runs, RunAccess<L> at) {
+    LKS_NEVER_INLINE void roll_through(Runs& runs) {
         if (before_->apart) {
             settle(*before_);
             f_ = FactorsOf<L>::none();
@@ -59,14 +59,13 @@ private:
         auto sums = sums_;
         Factors<L> f = f_;
         do {
-            next->at = at;
             groups.roll(*before, *now, *next, sums, f);
             next->apart = is_apart(*next);
             RollingGroup<L>* const free = before;
             before = now;
             now = next;
             next = free;
-        } while (!before->apart && runs.take_more(at));
+        } while (!before->apart && runs.take_more(next->at));
         before_ = before;
         now_ = now;
         next_ = next;

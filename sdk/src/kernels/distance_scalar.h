@@ -84,7 +84,7 @@ public:
           difference_rounding_(std::int64_t{1} << (task.parameters.difference_shift - 1)),
           gain_rounding_(std::int64_t{1} << (task.parameters.gain_shift - 1)), arrays_(task.arrays) {}
 
-    LKS_FORCE_INLINE void operator()(std::uint32_t constraint, std::uint32_t a, std::uint32_t b) const {
+    LKS_FORCE_INLINE void operator()(std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b) const {
         const Difference wide = difference(a, b);
         const int shift = parameters_.difference_shift;
         const std::int64_t x = wrapping_add(wide.x, difference_rounding_) >> shift;
@@ -98,7 +98,7 @@ public:
     }
 
 private:
-    LKS_FORCE_INLINE Difference difference(std::uint32_t a, std::uint32_t b) const {
+    LKS_FORCE_INLINE Difference difference(std::ptrdiff_t a, std::ptrdiff_t b) const {
         const std::int64_t* x = as_it_stands(arrays_.x);
         const std::int64_t* y = as_it_stands(arrays_.y);
         const std::int64_t* z = as_it_stands(arrays_.z);
@@ -106,12 +106,12 @@ private:
     }
 
     // By itself, so that what nearly all edges take has no shifts that it doesn't need.
-    LKS_NEVER_INLINE void project_far(std::uint32_t constraint, std::uint32_t a, std::uint32_t b) const {
+    LKS_NEVER_INLINE void project_far(std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b) const {
         project<true>(constraint, a, b, narrow_far(difference(a, b), parameters_.difference_shift));
     }
 
     template <bool far>
-    LKS_FORCE_INLINE void project(std::uint32_t constraint, std::uint32_t a, std::uint32_t b,
+    LKS_FORCE_INLINE void project(std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b,
                                   const NarrowDifference& d) const {
         const std::uint64_t u = static_cast<std::uint64_t>(d.x * d.x) +
                                 static_cast<std::uint64_t>(d.y * d.y) + static_cast<std::uint64_t>(d.z * d.z);
@@ -137,7 +137,7 @@ private:
     }
 
     // f in Direction format from the relative error g = L/len − 1.
-    std::int64_t soft_correction(std::int64_t g, std::uint32_t constraint, std::uint32_t a, std::uint32_t b,
+    std::int64_t soft_correction(std::int64_t g, std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b,
                                  const NarrowDifference& d, std::uint64_t u, std::uint32_t y, int k,
                                  int scale) const {
         std::int64_t f = g;
@@ -162,8 +162,8 @@ private:
 
     // n·(Δx_a − Δx_b) / len since the start of the substep in Direction format, within ±1: with d and the
     // same difference at the start, d·(d − d_start) / u.
-    std::int64_t relative_motion(std::uint32_t a, std::uint32_t b, const NarrowDifference& d, std::uint64_t u,
-                                 std::uint32_t y, int k, int scale) const {
+    std::int64_t relative_motion(std::ptrdiff_t a, std::ptrdiff_t b, const NarrowDifference& d,
+                                 std::uint64_t u, std::uint32_t y, int k, int scale) const {
         const auto start_difference = [&](const std::int64_t* start) {
             return std::clamp<std::int64_t>(
                 shift_right_rounded_any(wrapping_subtract(start[a], start[b]), scale), -direction_one,
@@ -192,7 +192,7 @@ private:
     }
 
     template <bool far>
-    LKS_FORCE_INLINE void apply(std::uint32_t constraint, std::uint32_t a, std::uint32_t b,
+    LKS_FORCE_INLINE void apply(std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b,
                                 const NarrowDifference& d, std::int64_t f) const {
         const std::uint32_t share = shares_a_[constraint];
         if (share == shares_b_[constraint]) {
@@ -204,7 +204,7 @@ private:
 
     // Both ends by the same rounded correction: linear momentum is kept to the bit.
     template <bool far>
-    LKS_FORCE_INLINE void move_alike(std::uint32_t share, std::uint32_t a, std::uint32_t b,
+    LKS_FORCE_INLINE void move_alike(std::uint32_t share, std::ptrdiff_t a, std::ptrdiff_t b,
                                      const NarrowDifference& d, std::int64_t f) const {
         const std::int64_t gain =
             (static_cast<std::int64_t>(share) * f + gain_rounding_) >> parameters_.gain_shift;
@@ -224,7 +224,7 @@ private:
     }
 
     // Each end by its share, with 31 more bits of the gain: gains rounded apart would push the whole object.
-    void move_by_share(std::uint32_t share_a, std::uint32_t share_b, std::uint32_t a, std::uint32_t b,
+    void move_by_share(std::uint32_t share_a, std::uint32_t share_b, std::ptrdiff_t a, std::ptrdiff_t b,
                        const NarrowDifference& d, std::int64_t f) const {
         const LongGain gain_a = long_gain(share_a, f);
         const LongGain gain_b = long_gain(share_b, f);

@@ -43,12 +43,12 @@ inline void project_in_turn(const DistanceTask& task) {
         for (std::uint32_t r = 0; r < part.run_count; ++r) {
             const RunPart run = run_part(part, r);
             for (std::uint32_t i = 0; i < run.count; ++i) {
-                project(run.constraint + i, run.a + i, run.b + i);
+                project(run.constraint + i, place_of(run.a + i), place_of(run.b + i));
             }
         }
         const ConstraintRange rest = singles(part);
         for (std::uint32_t i = rest.first; i < rest.last; ++i) {
-            project(i, task.constraints[i].a, task.constraints[i].b);
+            project(i, place_of(task.constraints[i].a), place_of(task.constraints[i].b));
         }
     }
 }

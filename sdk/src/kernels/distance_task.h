@@ -3,6 +3,7 @@
 // share with others must not be code.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "asset/constraint_runs.h"
@@ -55,6 +56,15 @@ struct BatchPart {
     bool whole; // nobody else is at work on the batch
 };
 
+// Where a particle stands in the arrays of an object, or of one that is side by side with it.
+constexpr std::ptrdiff_t place_of(std::uint32_t particle) {
+    return static_cast<std::ptrdiff_t>(particle);
+}
+
+// Objects in one task: with fewer than three a group would wait for itself.
+inline constexpr std::uint32_t least_side_by_side = 3;
+inline constexpr std::uint32_t most_side_by_side = 16;
+
 struct DistanceTask {
     const BatchPart* parts; // one after the other
     std::uint32_t part_count;
@@ -69,6 +79,11 @@ struct DistanceTask {
     const std::uint32_t* shares_b;
     const std::uint32_t* relaxations; // null where needless
     DistanceArrays arrays;
+    // Of objects side by side, which have all of the above in common, `arrays` are the first one's: how far
+    // from them each one's are, in elements. Null: it is the only one. Then there are no multipliers, and
+    // runs only; not all kernels take them (kernels.h).
+    const std::ptrdiff_t* objects;
+    std::uint32_t object_count;
 };
 
 } // namespace lks

@@ -14,6 +14,8 @@ namespace lks {
 
 struct Kernels {
     lks_simd level;
+    // Whether project_distances takes objects side by side.
+    bool side_by_side;
     void (*project_distances)(const DistanceTask& task);
     PredictionClamps (*predict)(const PredictionTask& task);
     // Bit i: particle first + i may be touched; count ≤ 64.

@@ -13,6 +13,7 @@
 namespace lks {
 
 constinit const Kernels kernels_sse41{LKS_SIMD_SSE41,
+                                      false,
                                       project_lanes<LanesSse41>,
                                       predict_lanes<LanesSse41>,
                                       near_box_lanes<LanesSse41>,

@@ -14,6 +14,7 @@
 namespace lks {
 
 constinit const Kernels kernels_wasm{LKS_SIMD_WASM,
+                                     false,
                                      project_lanes<TwiceLanes<LanesWasm>>,
                                      predict_lanes<LanesWasm>,
                                      near_box_lanes<LanesWasm>,

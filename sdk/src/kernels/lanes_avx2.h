@@ -17,6 +17,8 @@ struct LanesAvx2 {
     static constexpr std::uint32_t singles_together = 8;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 2;
+    // Of several objects side by side more go over lanes, the same constraint of an object in each.
+    static constexpr std::uint32_t worth_across = 3;
     // Parts of so many constraints roll (kernels/distance_rolling.h).
     static constexpr std::uint32_t rolls_from = 192;
     using Register = __m256i;
@@ -39,6 +41,9 @@ struct LanesAvx2 {
     // Every other index of `at`.
     static Register gather(const std::int64_t* p, const std::uint32_t* at) {
         return _mm256_set_epi64x(p[at[6]], p[at[4]], p[at[2]], p[at[0]]);
+    }
+    static Register gather(const std::int64_t* p, const std::ptrdiff_t* at) {
+        return _mm256_set_epi64x(p[at[3]], p[at[2]], p[at[1]], p[at[0]]);
     }
     static Register set(std::int64_t value) { return _mm256_set1_epi64x(value); }
     static Register set_32(std::int32_t value) { return _mm256_set1_epi32(value); }

@@ -17,6 +17,8 @@ struct LanesAvx512 {
     static constexpr std::uint32_t singles_together = 6;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 3;
+    // Of several objects side by side more go over lanes, the same constraint of an object in each.
+    static constexpr std::uint32_t worth_across = 5;
     // Parts of so many constraints roll (kernels/distance_rolling.h).
     static constexpr std::uint32_t rolls_from = 192;
     using Register = __m512i;
@@ -37,6 +39,10 @@ struct LanesAvx512 {
     // Every other index of `at`.
     static Register gather(const std::int64_t* p, const std::uint32_t* at) {
         return _mm512_set_epi64(p[at[14]], p[at[12]], p[at[10]], p[at[8]], p[at[6]], p[at[4]], p[at[2]],
+                                p[at[0]]);
+    }
+    static Register gather(const std::int64_t* p, const std::ptrdiff_t* at) {
+        return _mm512_set_epi64(p[at[7]], p[at[6]], p[at[5]], p[at[4]], p[at[3]], p[at[2]], p[at[1]],
                                 p[at[0]]);
     }
     static Register set(std::int64_t value) { return _mm512_set1_epi64(value); }

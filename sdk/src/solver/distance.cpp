@@ -37,7 +37,9 @@ DistanceTask task_of_batch(const lks_asset& asset, const Coefficients& coefficie
             coefficients.shares_a.data(),
             coefficients.shares_b.data(),
             coefficients.relaxations.empty() ? nullptr : coefficients.relaxations.data(),
-            arrays};
+            arrays,
+            nullptr,
+            1};
 }
 
 bool alike(const DistanceTask& a, const DistanceTask& b) {

@@ -1,6 +1,7 @@
 #include "solver/object_tick.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "collide/broad_phase.h"
 #include "collide/contact.h"
@@ -10,6 +11,7 @@
 #include "solver/local_frame.h"
 #include "solver/pins.h"
 #include "solver/prediction.h"
+#include "solver/side_by_side.h"
 #include "solver/tethers.h"
 #include "solver/world.h"
 #include "threads/blocks.h"
@@ -20,9 +22,13 @@ namespace {
 // How one object moves through one tick.
 class ObjectTick {
 public:
-    ObjectTick(const lks_world& world, Object& object, TickScratch& scratch, Team* team)
+    // number: among the objects that use this scratch at the same time.
+    ObjectTick(const lks_world& world, Object& object, TickScratch& scratch, Team* team,
+               std::uint32_t number = 0)
         : world_(world), object_(object), scratch_(scratch), team_(team), asset_(object.asset()),
-          coefficients_(object.coefficients()), kept_(kept_share(world.rate, object.linear_damping)) {
+          coefficients_(object.coefficients()), kept_(kept_share(world.rate, object.linear_damping)),
+          candidates_(scratch.candidates.data() +
+                      scratch.candidates.capacity() / most_side_by_side * number) {
         const std::int64_t gravity[3] = {world.gravity.x, world.gravity.y, world.gravity.z};
         for (int axis = 0; axis < 3; ++axis) {
             acceleration_[axis] = motion_from_acceleration(world.rate, gravity[axis], object.gravity_factor);
@@ -30,7 +36,7 @@ public:
     }
 
     void run() {
-        find_candidates(begin(), world_.rate.substeps);
+        begin_near_colliders();
         prepare_batches();
         for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
             begin_substep(substep);
@@ -40,6 +46,8 @@ public:
             }
         }
     }
+
+    void begin_near_colliders() { find_candidates(begin(), world_.rate.substeps); }
 
     // Where its particles are at the beginning of the tick.
     Bounds begin() {
@@ -69,27 +77,6 @@ public:
         resolve_all_contacts(substep);
     }
 
-private:
-    // Colliders that the object can reach in so many substeps at its speed limit; each substep looks at its
-    // true bounds again.
-    void find_candidates(Bounds bounds, std::uint32_t substeps) {
-        scratch_.candidates.clear();
-        if (world_.colliders.empty()) {
-            return;
-        }
-        for (const Pin& pin : object_.pins()) {
-            include(bounds, pin.target);
-        }
-        const std::int64_t reach = std::min(world_.rate.motion_limit, coordinate_limit / substeps) * substeps;
-        grow(bounds, reach);
-        for (std::uint32_t i = 0; i < world_.colliders.size(); ++i) {
-            const ColliderSlot& slot = world_.colliders[i];
-            if (slot.used && may_touch(slot.collider, object_.origin, bounds, asset_.particle_radius)) {
-                scratch_.candidates.push_reserved(i);
-            }
-        }
-    }
-
     void prepare_batches() {
         prepare_distances(asset_, coefficients_, distance_arrays(), scratch_.distances);
     }
@@ -109,6 +96,53 @@ private:
                   [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
                       lks::hold_by_tethers(object_, anchors, *world_.kernels, first, count);
                   });
+    }
+
+    // Contacts come last in an iteration, so that a substep ends with nothing inside a collider.
+    void resolve_all_contacts(std::uint32_t substep) {
+        if (candidate_count_ == 0) {
+            return;
+        }
+        const Bounds swept = swept_bounds();
+        bool touched = false;
+        for (std::uint32_t i = 0; i < candidate_count_; ++i) {
+            const ColliderState& collider = world_.colliders[candidates_[i]].collider;
+            if (!may_touch(collider, object_.origin, swept, asset_.particle_radius)) {
+                continue;
+            }
+            ContactFrame frame = make_contact_frame(collider, substep, world_.rate.substeps, object_.origin,
+                                                    swept, asset_.particle_radius, asset_.friction);
+            frame.greatest_recovery = world_.rate.greatest_recovery;
+            in_blocks(object_.count(), particles_a_block,
+                      [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
+                          resolve_contacts(frame, particle_arrays(), first, count, *world_.kernels);
+                      });
+            touched = true;
+        }
+        if (touched) {
+            place_pins(object_, substep, world_.rate.substeps);
+        }
+    }
+
+private:
+    // Colliders that the object can reach in so many substeps at its speed limit; each substep looks at its
+    // true bounds again.
+    void find_candidates(Bounds bounds, std::uint32_t substeps) {
+        candidate_count_ = 0;
+        if (world_.colliders.empty()) {
+            return;
+        }
+        for (const Pin& pin : object_.pins()) {
+            include(bounds, pin.target);
+        }
+        const std::int64_t reach = std::min(world_.rate.motion_limit, coordinate_limit / substeps) * substeps;
+        grow(bounds, reach);
+        for (std::uint32_t i = 0; i < world_.colliders.size(); ++i) {
+            const ColliderSlot& slot = world_.colliders[i];
+            if (slot.used && may_touch(slot.collider, object_.origin, bounds, asset_.particle_radius)) {
+                candidates_[candidate_count_++] = i;
+            }
+        }
     }
 
     // A rope that is solved directly comes last, so that an iteration ends with no segment stretched.
@@ -207,32 +241,6 @@ private:
         scratch_.counters.speed_clamps += clamps.speeds;
     }
 
-    // Contacts come last in an iteration, so that a substep ends with nothing inside a collider.
-    void resolve_all_contacts(std::uint32_t substep) {
-        if (scratch_.candidates.empty()) {
-            return;
-        }
-        const Bounds swept = swept_bounds();
-        bool touched = false;
-        for (const std::uint32_t index : scratch_.candidates) {
-            const ColliderState& collider = world_.colliders[index].collider;
-            if (!may_touch(collider, object_.origin, swept, asset_.particle_radius)) {
-                continue;
-            }
-            ContactFrame frame = make_contact_frame(collider, substep, world_.rate.substeps, object_.origin,
-                                                    swept, asset_.particle_radius, asset_.friction);
-            frame.greatest_recovery = world_.rate.greatest_recovery;
-            in_blocks(object_.count(), particles_a_block,
-                      [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
-                          resolve_contacts(frame, particle_arrays(), first, count, *world_.kernels);
-                      });
-            touched = true;
-        }
-        if (touched) {
-            place_pins(object_, substep, world_.rate.substeps);
-        }
-    }
-
     // Where the particles have been in this substep, from start to now.
     Bounds swept_bounds() {
         Bounds parts[greatest_block_count];
@@ -306,12 +314,65 @@ private:
     const Coefficients& coefficients_;
     std::uint32_t kept_;
     std::int64_t acceleration_[3];
+    std::uint32_t* candidates_; // colliders near the object
+    std::uint32_t candidate_count_ = 0;
+};
+
+// Objects that are alike (solver/side_by_side.h): all do each step before any does the next, and constraints
+// are projected for all of them at once.
+class ObjectsTick {
+public:
+    ObjectsTick(const lks_world& world, Object* const* objects, std::uint32_t count, TickScratch& scratch)
+        : world_(world), scratch_(scratch), count_(count) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            ticks_[i].emplace(world, *objects[i], scratch, nullptr, i);
+            places_[i] = distance_between(*objects[0], *objects[i]);
+        }
+    }
+
+    void run() {
+        each([](ObjectTick& tick) { tick.begin_near_colliders(); });
+        ticks_[0]->prepare_batches();
+        for (DistanceTask& task : scratch_.distances.tasks) {
+            task.objects = places_;
+            task.object_count = count_;
+        }
+        for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
+            each([&](ObjectTick& tick) { tick.begin_substep(substep); });
+            for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
+                each([](ObjectTick& tick) { tick.hold_by_tethers(); });
+                for (const DistanceTask& task : scratch_.distances.tasks) {
+                    world_.kernels->project_distances(task);
+                }
+                each([&](ObjectTick& tick) { tick.resolve_all_contacts(substep); });
+            }
+        }
+    }
+
+private:
+    template <typename Step>
+    void each(const Step& step) {
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            step(*ticks_[i]);
+        }
+    }
+
+    const lks_world& world_;
+    TickScratch& scratch_;
+    std::uint32_t count_;
+    std::optional<ObjectTick> ticks_[most_side_by_side];
+    std::ptrdiff_t places_[most_side_by_side];
 };
 
 } // namespace
 
 void run_object_tick(const lks_world& world, Object& object, TickScratch& scratch, Team* team) {
     ObjectTick(world, object, scratch, team).run();
+}
+
+void run_objects_tick(const lks_world& world, Object* const* objects, std::uint32_t count,
+                      TickScratch& scratch) {
+    ObjectsTick(world, objects, count, scratch).run();
 }
 
 void begin_object_tick(const lks_world& world, Object& object, TickScratch& scratch) {

@@ -1,4 +1,4 @@
-// One object through one tick.
+// One object, or several alike, through one tick.
 #pragma once
 
 #include "solver/tick_scratch.h"
@@ -10,6 +10,10 @@ namespace lks {
 
 // team: null, or who helps with the blocks of each phase. The bits are the same.
 void run_object_tick(const lks_world& world, Object& object, TickScratch& scratch, Team* team);
+
+// Objects that may go side by side (solver/side_by_side.h): the same bits.
+void run_objects_tick(const lks_world& world, Object* const* objects, std::uint32_t count,
+                      TickScratch& scratch);
 
 // The parts of a tick, for objects that go through it together with others and with bodies: the same bits.
 void begin_object_tick(const lks_world& world, Object& object, TickScratch& scratch);

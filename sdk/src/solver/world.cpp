@@ -82,7 +82,7 @@ bool lks_world::has_attachment(lks_attachment_id id) const {
 
 bool lks_world::reserve_colliders(std::size_t count) {
     for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
-        if (!scratch[worker].candidates.reserve(count)) {
+        if (!scratch[worker].candidates.reserve(count * lks::most_side_by_side)) {
             return false;
         }
     }
