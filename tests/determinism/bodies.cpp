@@ -265,6 +265,46 @@ TEST_CASE("bodies, cloth and ropes that touch have the same bits on every instru
     }
 }
 
+TEST_CASE("a crowd whose trees are solved side by side has the bits of plain integers") {
+    // Two sizes; one is held, and another one loses a limb.
+    const auto hashes_of = [](std::uint32_t workers, lks_simd simd) {
+        lks_world_def def = world_def(60, 6);
+        def.worker_count = workers;
+        def.simd = static_cast<std::uint32_t>(simd);
+        World world(def);
+        add_ground(world);
+        lks_joint_id joints[LKS_HUMANOID_BONES - 1];
+        for (int i = 0; i < 15; ++i) {
+            Humanoid humanoid;
+            const int row = i / 3;
+            humanoid.def.transform = {fixed(0.4 * (i % 3), 0.4 + 0.5 * row, -0.9 + 0.1 * i),
+                                      about(1, 0, 0, 90)};
+            humanoid.def.scale = fixed(i < 11 ? 1 : 0.6);
+            if (i == 3) {
+                humanoid.bones[LKS_HUMANOID_HEAD].body.kind = LKS_BODY_KINEMATIC;
+            }
+            REQUIRE(humanoid.add(world, nullptr, i == 8 ? joints : nullptr) == LKS_OK);
+        }
+        std::vector<std::uint64_t> hashes;
+        for (int i = 0; i < 60; ++i) {
+            if (i == 20) {
+                REQUIRE(lks_world_remove_joint(world, joints[4]) == LKS_OK);
+            }
+            world.step();
+            hashes.push_back(world.hash());
+        }
+        return hashes;
+    };
+    const std::vector<std::uint64_t> expected = hashes_of(1, LKS_SIMD_SCALAR);
+    for (const lks_simd simd : {LKS_SIMD_AVX2, LKS_SIMD_AVX512}) {
+        if (lks_simd_is_available(simd) != 0) {
+            INFO(std::string(lks_simd_name(simd)));
+            CHECK(hashes_of(1, simd) == expected);
+            CHECK(hashes_of(3, simd) == expected);
+        }
+    }
+}
+
 TEST_CASE("a pile saved as it lands goes on for 600 ticks with other workers and instructions") {
     const auto fill = [](World& world, int count) {
         add_ground(world);

@@ -59,6 +59,7 @@ const lks::Kernels& dawdling() {
             return prompt().beyond_tether(task, first, count);
         },
         prompt().chain,
+        prompt().trees,
         prompt().hash_update};
     return kernels;
 }

@@ -9,6 +9,7 @@
 #include "kernels/distance_task.h"
 #include "kernels/prediction_task.h"
 #include "kernels/tether_task.h"
+#include "kernels/tree_task.h"
 
 namespace lks {
 
@@ -24,6 +25,7 @@ struct Kernels {
     // Bit i: particle first + i may be beyond its tether; count ≤ 64.
     std::uint64_t (*beyond_tether)(const TetherTask& task, std::uint32_t first, std::uint32_t count);
     ChainKernels chain;
+    TreeKernels trees;
     // XXH3_64bits_update.
     void (*hash_update)(void* state, const void* bytes, std::size_t size);
 };

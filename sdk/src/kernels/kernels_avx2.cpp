@@ -10,6 +10,7 @@
 #include "kernels/leave_lanes.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/tether_lanes.h"
+#include "kernels/tree_lanes.h"
 
 namespace lks {
 
@@ -21,6 +22,7 @@ constinit const Kernels kernels_avx2{LKS_SIMD_AVX2,
                                      leaving<LanesAvx2, near_plane_lanes<LanesAvx2>>,
                                      leaving<LanesAvx2, beyond_tether_lanes<LanesAvx2>>,
                                      leaving_chain_lanes<LanesAvx2>(),
+                                     leaving_tree_lanes<LanesAvx2>(),
                                      leaving<LanesAvx2, hash_update>};
 
 } // namespace lks

@@ -16,6 +16,7 @@
 #include "kernels/leave_lanes.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/tether_lanes.h"
+#include "kernels/tree_lanes.h"
 
 namespace lks {
 namespace {
@@ -39,6 +40,7 @@ constinit const Kernels kernels_avx512{LKS_SIMD_AVX512,
                                        leaving<LanesAvx512, near_plane_lanes<LanesAvx512>>,
                                        leaving<LanesAvx512, beyond_tether_lanes<LanesAvx512>>,
                                        leaving_chain_lanes<LanesAvx512>(),
+                                       leaving_tree_lanes<LanesAvx512>(),
                                        leaving<LanesAvx512, hash_update>};
 
 } // namespace lks

@@ -20,6 +20,7 @@ constinit const Kernels kernels_neon{LKS_SIMD_NEON,
                                      near_plane_lanes<LanesNeon>,
                                      beyond_tether_lanes<LanesNeon>,
                                      chain_lanes<LanesNeon>(),
+                                     no_tree_kernels,
                                      hash_update};
 
 } // namespace lks

@@ -21,6 +21,7 @@ constinit const Kernels kernels_wasm{LKS_SIMD_WASM,
                                      near_plane_lanes<LanesWasm>,
                                      beyond_tether_lanes<LanesWasm>,
                                      chain_lanes<LanesWasm>(),
+                                     no_tree_kernels,
                                      hash_update};
 
 } // namespace lks

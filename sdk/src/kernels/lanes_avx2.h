@@ -27,6 +27,7 @@ struct LanesAvx2 {
     static constexpr bool has_shift_each = true;
     static constexpr bool has_quick_shift = true;
     static constexpr bool has_minimum_64 = false;
+    static constexpr bool has_multiply_low_64 = false;
     static constexpr bool has_mask_tests = false;
     static constexpr bool has_rounding_multiply_16 = true;
     static constexpr bool packs_factors = false;
@@ -64,6 +65,12 @@ struct LanesAvx2 {
     static Register shift_right_each(Register v, Register counts) { return _mm256_srlv_epi64(v, counts); }
     static Register shift_left_each(Register v, Register counts) { return _mm256_sllv_epi64(v, counts); }
     static Register equal(Register a, Register b) { return _mm256_cmpeq_epi64(a, b); }
+    static Register minimum_signed(Register a, Register b) {
+        return _mm256_blendv_epi8(a, b, _mm256_cmpgt_epi64(a, b));
+    }
+    static Register maximum_signed(Register a, Register b) {
+        return _mm256_blendv_epi8(a, b, _mm256_cmpgt_epi64(b, a));
+    }
     // b where the 64-bit lane of `sign` is negative.
     static Register select_by_sign(Register a, Register b, Register sign) {
         return _mm256_castpd_si256(

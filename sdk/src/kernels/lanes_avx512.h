@@ -27,6 +27,7 @@ struct LanesAvx512 {
     static constexpr bool has_shift_each = true;
     static constexpr bool has_quick_shift = true;
     static constexpr bool has_minimum_64 = true;
+    static constexpr bool has_multiply_low_64 = true;
     static constexpr bool has_mask_tests = true;
     static constexpr bool has_rounding_multiply_16 = true;
     static constexpr bool packs_factors = false;
@@ -62,10 +63,17 @@ struct LanesAvx512 {
     static Register shift_left(Register v) {
         return _mm512_slli_epi64(v, count);
     }
+    template <int count>
+    static Register shift_right_signed(Register v) {
+        return _mm512_srai_epi64(v, count);
+    }
     static Register shift_right_each(Register v, Register counts) { return _mm512_srlv_epi64(v, counts); }
     static Register shift_left_each(Register v, Register counts) { return _mm512_sllv_epi64(v, counts); }
     static Register equal(Register a, Register b) { return _mm512_movm_epi64(_mm512_cmpeq_epi64_mask(a, b)); }
     static Register minimum_64(Register a, Register b) { return _mm512_min_epu64(a, b); }
+    static Register minimum_signed(Register a, Register b) { return _mm512_min_epi64(a, b); }
+    static Register maximum_signed(Register a, Register b) { return _mm512_max_epi64(a, b); }
+    static Register multiply_low_64(Register a, Register b) { return _mm512_mullo_epi64(a, b); }
     // b where the 64-bit lane of `sign` is negative.
     static Register select_by_sign(Register a, Register b, Register sign) {
         return _mm512_mask_blend_epi64(_mm512_movepi64_mask(sign), a, b);

@@ -185,7 +185,6 @@ void factor_joint(RigidScene& scene, ArticulatedJoint& part) {
     push_columns(parent.inverse, part.parent_lever, part.column_shift, part.column_turn);
     add_point_motion(part.parent_lever, part.column_shift, part.column_turn, d);
     part.inverse = invert(d);
-    fold_in(parent.inverse, part);
 }
 
 // A light link under a great tension swings faster than a substep: beyond what a substep can follow it turns
@@ -230,7 +229,7 @@ class Tree {
 public:
     Tree(RigidScene& scene, const ArticulatedTree& range) : scene_(scene), range_(range) {}
 
-    void factor() {
+    void stiffen_bodies() {
         for_each_body([](Body&, ArticulatedBody& part) { part.load = 0; });
         for_each_joint([this](const ArticulatedJoint& part, const Joint& joint) {
             add_load(part.parent, joint, !part.child_is_a);
@@ -238,11 +237,19 @@ public:
                 add_load(part.child, joint, part.child_is_a);
             }
         });
-        for_each_body([](Body& body, ArticulatedBody& part) {
-            stiffen(body, part.load);
-            part.inverse = own_inverse(body, part.share);
+        for_each_body([](Body& body, ArticulatedBody& part) { stiffen(body, part.load); });
+    }
+
+    void factor() {
+        for_each_body(
+            [](Body& body, ArticulatedBody& part) { part.inverse = own_inverse(body, part.share); });
+        for_each_joint_back([this](ArticulatedJoint& part) {
+            factor_joint(scene_, part);
+            // Nothing is carried by what the root's first joint leaves of it.
+            if (&part != &scene_.tree_joints[range_.first_joint]) {
+                fold_in(scene_.articulated[part.parent].inverse, part);
+            }
         });
-        for_each_joint_back([this](ArticulatedJoint& part) { factor_joint(scene_, part); });
     }
 
     // Brings the points of all joints together, `error` being how far b's is from a's, and calls
@@ -260,17 +267,27 @@ public:
         for_each_body([](Body& body, ArticulatedBody& part) { apply(body, move_of(body, part)); });
     }
 
-    // A limit that turns one bone back on its joint takes the points along: some rounds bring both right.
-    void undo() {
+    // True: a limit was far off.
+    bool undo_errors() {
+        bool far_off = false;
+        for_each_joint([&](const ArticulatedJoint&, const Joint& joint) {
+            far_off = undo_error(joint, body_a(joint), body_b(joint)) || far_off;
+        });
+        return far_off;
+    }
+
+    void bring_together() {
+        solve([](const Joint& joint, const Body& a, const Body& b) { return joint_offset(joint, a, b); },
+              [](const Joint&, const Vec3&) {});
+    }
+
+    // After one round. A limit that turns one bone back on its joint takes the points along: some rounds
+    // bring both right.
+    void finish_undoing(bool far_off) {
         constexpr int most_rounds = 6;
-        bool far_off = true;
-        for (int round = 0; round < most_rounds && far_off; ++round) {
-            far_off = false;
-            for_each_joint([&](const ArticulatedJoint&, const Joint& joint) {
-                far_off = undo_error(joint, body_a(joint), body_b(joint)) || far_off;
-            });
-            solve([](const Joint& joint, const Body& a, const Body& b) { return joint_offset(joint, a, b); },
-                  [](const Joint&, const Vec3&) {});
+        for (int round = 1; round < most_rounds && far_off; ++round) {
+            far_off = undo_errors();
+            bring_together();
         }
         for_each_body(
             [](Body& body, const ArticulatedBody&) { body.orientation = normalise(body.orientation); });
@@ -370,21 +387,54 @@ private:
 } // namespace
 
 void factor_articulation(RigidScene& scene, const ArticulatedTree& tree) {
-    Tree(scene, tree).factor();
+    Tree all(scene, tree);
+    all.stiffen_bodies();
+    all.factor();
+}
+
+void stiffen_articulation(RigidScene& scene, const ArticulatedTree& tree) {
+    Tree(scene, tree).stiffen_bodies();
+}
+
+void invert_points(const TreeLanes (&motion)[6], std::uint32_t first, std::uint32_t count,
+                   TreeLanes (&inverse)[6]) {
+    for (std::uint32_t lane = first; lane < first + count; ++lane) {
+        std::int64_t d[6];
+        for (int i = 0; i < 6; ++i) {
+            d[i] = motion[i][lane];
+        }
+        const SymmetricInverse inverted = invert(d);
+        for (int i = 0; i < 6; ++i) {
+            inverse[i][lane] = inverted.entries[i];
+        }
+    }
+}
+
+void add_tree_push(Joint& joint, const Vec3& push) {
+    joint.push = joint.push + push;
+    clamp_vector(joint.push, greatest_push);
 }
 
 void solve_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     Tree(scene, tree)
         .solve([](const Joint& joint, const Body& a,
                   const Body& b) { return joint_offset(joint, a, b) - joint.start; },
-               [](Joint& joint, const Vec3& push) {
-                   joint.push = joint.push + push;
-                   clamp_vector(joint.push, greatest_push);
-               });
+               add_tree_push);
+}
+
+bool undo_tree_errors(RigidScene& scene, const ArticulatedTree& tree) {
+    return Tree(scene, tree).undo_errors();
+}
+
+void finish_undoing(RigidScene& scene, const ArticulatedTree& tree, bool far_off) {
+    Tree(scene, tree).finish_undoing(far_off);
 }
 
 void undo_articulation(RigidScene& scene, const ArticulatedTree& tree) {
-    Tree(scene, tree).undo();
+    Tree all(scene, tree);
+    const bool far_off = all.undo_errors();
+    all.bring_together();
+    all.finish_undoing(far_off);
 }
 
 } // namespace lks

@@ -29,4 +29,16 @@ void solve_articulation(RigidScene& scene, const ArticulatedTree& tree);
 // Once velocities are known: all errors of its joints (undo_error, and the points), without giving speed.
 void undo_articulation(RigidScene& scene, const ArticulatedTree& tree);
 
+// Its parts, for trees that are solved side by side (rigid/wide_trees.h). Before the factors: bodies turn as
+// heavily as a substep can follow.
+void stiffen_articulation(RigidScene& scene, const ArticulatedTree& tree);
+// What the tree has pushed its joint:
+void add_tree_push(Joint& joint, const fixed::Vec3& push);
+// D⁻¹ of lanes first .. first + count − 1.
+void invert_points(const TreeLanes (&motion)[6], std::uint32_t first, std::uint32_t count,
+                   TreeLanes (&inverse)[6]);
+// What undoing begins with; true: a limit was far off. Once the points are together:
+bool undo_tree_errors(RigidScene& scene, const ArticulatedTree& tree);
+void finish_undoing(RigidScene& scene, const ArticulatedTree& tree, bool far_off);
+
 } // namespace lks

@@ -48,10 +48,6 @@ bool exceeds(const fixed::Vec3& sum, std::int64_t greatest_sum);
 // What such a sum is worth: newtons a metre.
 fixed::Scaled force_of_push(const StepRate& rate, const fixed::Scaled& greater_inverse_mass);
 
-// Errors beyond this are taken in several substeps: a bone that was torn 10 m away comes back at a bounded
-// speed.
-inline constexpr std::int64_t greatest_step = std::int64_t{1} << (world_fraction_bits - 1);
-
 // The push that follows `push` where the points are apart by `error`, and by `motion` since the substep
 // began.
 fixed::Vec3 next_push(const BlockInverse& inverse, const Softness& softness, const fixed::Vec3& error,

@@ -35,4 +35,14 @@ struct FigureRange {
     }
 };
 
+// Figures that follow each other, and where their trees stand lane by lane (rigid/wide_trees.h).
+struct FigureBundle {
+    std::uint32_t first;
+    std::uint32_t end;
+    std::uint32_t first_body; // of the scene's wide_bodies and wide_joints
+    std::uint32_t first_joint;
+
+    bool is_wide() const { return end - first > 1; }
+};
+
 } // namespace lks

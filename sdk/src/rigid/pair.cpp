@@ -79,8 +79,7 @@ Vec3 half_turn_of(const Body& body, std::int32_t share, int shift, const Vec3& p
 
 // A quarter an axis.
 Vec3 clamped_turn(const Vec3& half_turn) {
-    const std::int64_t limit = std::int64_t{1} << (half_turn_bits - 2);
-    const auto part = [limit](std::int64_t c) { return std::clamp(c, -limit, limit); };
+    const auto part = [](std::int64_t c) { return std::clamp(c, -greatest_half_turn, greatest_half_turn); };
     return {part(half_turn.x), part(half_turn.y), part(half_turn.z)};
 }
 
@@ -208,8 +207,7 @@ void turn_body(Body& body, const Vec3& half_turn) {
         return;
     }
     // q += τ⊗q with 40 + 30 fraction bits, of which a large turn would need more than 64.
-    constexpr std::int64_t small = std::int64_t{1} << (half_turn_bits - 8);
-    const bool is_large = std::max({x, y, z}) > small || std::min({x, y, z}) < -small;
+    const bool is_large = std::max({x, y, z}) > small_half_turn || std::min({x, y, z}) < -small_half_turn;
     int down = half_turn_bits + 30 - turn_fraction_bits;
     if (is_large) {
         constexpr int coarser = 7;

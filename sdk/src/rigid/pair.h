@@ -12,6 +12,7 @@
 #pragma once
 
 #include "rigid/body.h"
+#include "rigid/push_limits.h"
 
 namespace lks {
 
@@ -27,10 +28,6 @@ struct PairShares {
 bool heavier(const InverseMass& a, const InverseMass& b);
 // Both zero where both are infinitely heavy.
 PairShares pair_shares(const InverseMass& a, const InverseMass& b);
-
-// What a constraint pushes at most in a substep, World (1024 m): one that can't be satisfied would otherwise
-// carry ever more on.
-inline constexpr std::int64_t greatest_push = std::int64_t{1} << 50;
 
 // From 30 fraction bits, positive, to what divides by it: 1/W = mantissa · 2^-shift with W in units of one.
 struct Inverse {
@@ -85,9 +82,6 @@ struct BlockSide {
 
 // Adds the body's part to K = Σ wᵢ(1 − r̂ᵢ Ĵᵢ r̂ᵢ): xx, xy, xz, yy, yz, zz, 30 fraction bits.
 BlockSide block_side(const Body& body, std::int32_t share, const fixed::Vec3& lever, std::int64_t (&k)[6]);
-// Half turns of corrections, as fine as positions are: with 2^-33 what rests crept by its roundings, ten
-// boxes by a quarter of a millimetre in a minute.
-inline constexpr int half_turn_fraction_bits = 40;
 
 // value · 2^shift, rounded to the nearest; saturates at 2^50.
 inline std::int64_t shifted(std::int64_t value, int shift) {

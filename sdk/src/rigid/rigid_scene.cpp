@@ -3,8 +3,7 @@
 #include <algorithm>
 
 namespace lks {
-
-RigidScene::RigidScene(const lks_allocator& allocator)
+RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_kernels)
     : body_slots(allocator), bodies(allocator), definitions(allocator), joint_slots(allocator),
       joints(allocator), memories(allocator), attachment_slots(allocator), attachments(allocator),
       descriptions(allocator), jointed(allocator), ticks(allocator), collider_bodies(allocator),
@@ -13,10 +12,16 @@ RigidScene::RigidScene(const lks_allocator& allocator)
       contact_points(allocator), contact_moves(allocator), next_memories(allocator), islands(allocator),
       tree_roots(allocator), tree_links(allocator), tree_bodies(allocator), tree_joints(allocator),
       articulated(allocator), trees(allocator), figures(allocator), figure_parts(allocator),
-      figure_ranges(allocator), shared_contacts(allocator), figure_shares(allocator),
-      figures_changed(allocator), figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator),
-      is_coupled(allocator), coupled(allocator), object_pairs(allocator), object_impulses(allocator),
-      held(allocator), loaded_bodies(allocator), loaded_joints(allocator) {}
+      figure_ranges(allocator), figure_bundles(allocator), wide_bodies(allocator), wide_joints(allocator),
+      shared_contacts(allocator), figure_shares(allocator), figures_changed(allocator),
+      figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator), is_coupled(allocator),
+      coupled(allocator), object_pairs(allocator), object_impulses(allocator), held(allocator),
+      loaded_bodies(allocator), loaded_joints(allocator), tree_kernels_(tree_kernels) {}
+
+// A bundle takes the same for any number of trees.
+std::size_t RigidScene::wide_room(std::size_t count) const {
+    return tree_kernels_.solve != nullptr ? count / least_trees_in_lanes : 0;
+}
 
 bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
     if (body_count == 0) {
@@ -39,7 +44,8 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         reserve_figures(body_count, joint_room_, attachment_room_) && island_rests.reserve(body_count) &&
         shared_contacts.reserve(contact_capacity(body_count)) && figure_shares.reserve(body_count) &&
         figures_changed.reserve(body_count) && figure_shifts.reserve(body_count + 1) &&
-        figure_pairs.reserve(contact_capacity(body_count)) &&
+        figure_pairs.reserve(contact_capacity(body_count)) && figure_bundles.reserve(body_count) &&
+        wide_bodies.reserve(wide_room(body_count)) &&
         object_pairs.reserve(object_pair_capacity(object_room_, body_count)) &&
         object_impulses.reserve(object_pair_capacity(object_room_, body_count));
     body_room_ = done ? std::max(body_room_, body_count) : body_room_;
@@ -49,7 +55,8 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
 bool RigidScene::reserve_joints(std::size_t count) {
     const bool done = joint_slots.reserve(count) && joints.reserve(count) && loaded_joints.reserve(count) &&
                       jointed.reserve(count) && tree_links.reserve(2 * count) && tree_joints.reserve(count) &&
-                      trees.reserve(count) && reserve_figures(body_room_, count, attachment_room_);
+                      trees.reserve(count) && wide_joints.reserve(wide_room(count)) &&
+                      reserve_figures(body_room_, count, attachment_room_);
     joint_room_ = done ? std::max(joint_room_, count) : joint_room_;
     return done;
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "kernels/tree_task.h"
 #include "memory/array.h"
 #include "rigid/articulation_parts.h"
 #include "rigid/attachment.h"
@@ -52,7 +53,7 @@ struct FigurePair {
 enum class Loaded : std::uint8_t { nothing, same, other };
 
 struct RigidScene {
-    explicit RigidScene(const lks_allocator& allocator);
+    RigidScene(const lks_allocator& allocator, const TreeKernels& tree_kernels);
     RigidScene(const RigidScene&) = delete;
     RigidScene& operator=(const RigidScene&) = delete;
 
@@ -94,9 +95,13 @@ struct RigidScene {
     Array<ArticulatedBody> articulated;  // by body
     Array<ArticulatedTree> trees;
     // Of rigid/figures.h.
-    Array<std::uint32_t> figures;         // by body: the least index in its figure
-    Array<std::uint64_t> figure_parts;    // of awake figures, ascending
-    Array<FigureRange> figure_ranges;     // by awake figure
+    Array<std::uint32_t> figures;      // by body: the least index in its figure
+    Array<std::uint64_t> figure_parts; // of awake figures, ascending
+    Array<FigureRange> figure_ranges;  // by awake figure
+    // Of rigid/wide_trees.h.
+    Array<FigureBundle> figure_bundles; // all awake figures, in their order
+    Array<WideTreeBody> wide_bodies;
+    Array<WideTreeJoint> wide_joints;
     Array<std::uint32_t> shared_contacts; // of two figures, ascending
     Array<std::int32_t>
         figure_shares; // by awake figure: what is added to its pushes (rigid/carried_pushes.h)
@@ -133,10 +138,16 @@ struct RigidScene {
     void follow_joints();
     bool empty() const { return bodies.empty() && attachments.empty(); }
 
+    // What solves trees side by side, where the processor has lanes for it.
+    const TreeKernels& tree_kernels() const { return tree_kernels_; }
+
 private:
+    // Of bodies, or joints, side by side.
+    std::size_t wide_room(std::size_t count) const;
     [[nodiscard]] bool reserve_figures(std::size_t body_count, std::size_t joint_count,
                                        std::size_t attachment_count);
 
+    TreeKernels tree_kernels_;
     std::size_t body_room_ = 0;
     std::size_t joint_room_ = 0;
     std::size_t attachment_room_ = 0;

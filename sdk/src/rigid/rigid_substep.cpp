@@ -8,6 +8,7 @@
 #include "rigid/coupling.h"
 #include "rigid/figures.h"
 #include "rigid/particle_contact.h"
+#include "rigid/wide_trees.h"
 #include "solver/object_tick.h"
 #include "solver/pins.h"
 #include "solver/world.h"
@@ -61,20 +62,36 @@ void RigidSubstep::in_contacts(const Use& use) {
              [&](std::uint32_t i, std::uint32_t) { use(scene_.contacts[i]); });
 }
 
+// use(bundle)
+template <typename Use>
+void RigidSubstep::in_bundles(const Use& use) {
+    const Array<FigureBundle>& bundles = scene_.figure_bundles;
+    const auto begin_of = [this](const FigureBundle& bundle) {
+        return scene_.figure_ranges[bundle.first].begin();
+    };
+    // A block has the bundles whose parts begin in it.
+    run_blocks(team_, static_cast<std::uint32_t>(scene_.figure_parts.size()), parts_a_block,
+               [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                   const FigureBundle* bundle = std::lower_bound(
+                       bundles.begin(), bundles.end(), first,
+                       [&](const FigureBundle& b, std::uint32_t part) { return begin_of(b) < part; });
+                   for (; bundle != bundles.end() && begin_of(*bundle) < end; ++bundle) {
+                       use(*bundle);
+                   }
+               });
+}
+
+template <typename Use>
+void RigidSubstep::for_each_figure(const FigureBundle& bundle, const Use& use) {
+    for (std::uint32_t i = bundle.first; i < bundle.end; ++i) {
+        use(scene_.figure_ranges[i]);
+    }
+}
+
 // use(figure)
 template <typename Use>
 void RigidSubstep::in_figures(const Use& use) {
-    const Array<FigureRange>& figures = scene_.figure_ranges;
-    // A block has the figures whose parts begin in it.
-    run_blocks(team_, static_cast<std::uint32_t>(scene_.figure_parts.size()), parts_a_block,
-               [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
-                   const FigureRange* figure = std::lower_bound(
-                       figures.begin(), figures.end(), first,
-                       [](const FigureRange& range, std::uint32_t part) { return range.begin() < part; });
-                   for (; figure != figures.end() && figure->begin() < end; ++figure) {
-                       use(*figure);
-                   }
-               });
+    in_bundles([&](const FigureBundle& bundle) { for_each_figure(bundle, use); });
 }
 
 template <typename Use>
@@ -85,9 +102,31 @@ void RigidSubstep::for_each_joint(const FigureRange& figure, const Use& use) {
     });
 }
 
-void RigidSubstep::solve_trees(const FigureRange& figure) {
-    for_each_part(scene_, figure, Part::tree,
+void RigidSubstep::factor_trees(const FigureBundle& bundle) {
+    if (bundle.is_wide()) {
+        factor_bundle(scene_, bundle);
+        return;
+    }
+    for_each_part(scene_, scene_.figure_ranges[bundle.first], Part::tree,
+                  [this](std::uint32_t i) { factor_articulation(scene_, scene_.trees[i]); });
+}
+
+void RigidSubstep::solve_trees(const FigureBundle& bundle) {
+    if (bundle.is_wide()) {
+        solve_bundle(scene_, bundle);
+        return;
+    }
+    for_each_part(scene_, scene_.figure_ranges[bundle.first], Part::tree,
                   [this](std::uint32_t i) { solve_articulation(scene_, scene_.trees[i]); });
+}
+
+void RigidSubstep::undo_trees(const FigureBundle& bundle) {
+    if (bundle.is_wide()) {
+        undo_bundle(scene_, bundle);
+        return;
+    }
+    for_each_part(scene_, scene_.figure_ranges[bundle.first], Part::tree,
+                  [this](std::uint32_t i) { undo_articulation(scene_, scene_.trees[i]); });
 }
 
 void RigidSubstep::begin(std::uint32_t substep) {
@@ -145,15 +184,16 @@ void RigidSubstep::predict(std::uint32_t substep) {
 }
 
 void RigidSubstep::carry_pushes_on() {
-    in_figures([this](const FigureRange& figure) {
-        for_each_part(scene_, figure, Part::tree,
-                      [this](std::uint32_t i) { factor_articulation(scene_, scene_.trees[i]); });
-        for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::warm_start(joint, a, b); });
+    in_bundles([this](const FigureBundle& bundle) {
+        factor_trees(bundle);
+        for_each_figure(bundle, [this](const FigureRange& figure) {
+            for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::warm_start(joint, a, b); });
+        });
     });
     in_contacts([this](Contact& contact) { make_rows(contact, bodies_of(contact)); });
-    in_figures([this](const FigureRange& figure) {
-        push_contacts_again(figure);
-        solve_trees(figure);
+    in_bundles([this](const FigureBundle& bundle) {
+        for_each_figure(bundle, [this](const FigureRange& figure) { push_contacts_again(figure); });
+        solve_trees(bundle);
     });
     const std::int64_t least_speed = 2 * least_approach_;
     static_cast<void>(scene_.figure_shares.resize(scene_.figure_ranges.size())); // within its room
@@ -162,7 +202,7 @@ void RigidSubstep::carry_pushes_on() {
             share_to_add(scene_, figure, rate_, least_speed);
     });
     if (scale_carried_pushes(scene_, rate_, least_speed)) {
-        in_figures([this](const FigureRange& figure) { solve_trees(figure); });
+        in_bundles([this](const FigureBundle& bundle) { solve_trees(bundle); });
     }
 }
 
@@ -215,11 +255,16 @@ void RigidSubstep::iterate(std::uint32_t substep) {
     }
     // Forward and back: a sweep in one direction only makes tall stacks sway.
     project_attachments();
-    in_figures([this](const FigureRange& figure) {
-        for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::project(joint, a, b); });
-        solve_trees(figure);
-        for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) { measure_contact(i); });
-        for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) { project_contact(i, false); });
+    in_bundles([this](const FigureBundle& bundle) {
+        for_each_figure(bundle, [this](const FigureRange& figure) {
+            for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::project(joint, a, b); });
+        });
+        solve_trees(bundle);
+        for_each_figure(bundle, [this](const FigureRange& figure) {
+            for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) { measure_contact(i); });
+            for_each_part(scene_, figure, Part::contact,
+                          [this](std::uint32_t i) { project_contact(i, false); });
+        });
     });
     const Array<std::uint32_t>& shared = scene_.shared_contacts;
     run_each(team_, shared.size(), contacts_a_block,
@@ -230,16 +275,18 @@ void RigidSubstep::iterate(std::uint32_t substep) {
     for (std::size_t i = shared.size(); i-- > 0;) {
         project_contact(shared[i], true);
     }
-    in_figures([this](const FigureRange& figure) {
-        for_each_part_back(scene_, figure, Part::contact,
-                           [this](std::uint32_t i) { project_contact(i, true); });
-        apply_contact_moves(figure);
-        for_each_part_back(scene_, figure, Part::joint, [this](std::uint32_t i) {
-            Joint& joint = scene_.joints[i];
-            lks::project(joint, scene_.bodies[joint.description.body_a],
-                         scene_.bodies[joint.description.body_b]);
+    in_bundles([this](const FigureBundle& bundle) {
+        for_each_figure(bundle, [this](const FigureRange& figure) {
+            for_each_part_back(scene_, figure, Part::contact,
+                               [this](std::uint32_t i) { project_contact(i, true); });
+            apply_contact_moves(figure);
+            for_each_part_back(scene_, figure, Part::joint, [this](std::uint32_t i) {
+                Joint& joint = scene_.joints[i];
+                lks::project(joint, scene_.bodies[joint.description.body_a],
+                             scene_.bodies[joint.description.body_b]);
+            });
         });
-        solve_trees(figure);
+        solve_trees(bundle);
     });
     project_attachments();
     collide_objects(substep);
@@ -302,10 +349,7 @@ void RigidSubstep::finish() {
     for (const std::uint32_t i : scene_.shared_contacts) {
         undo(i);
     }
-    in_figures([this](const FigureRange& figure) {
-        for_each_part(scene_, figure, Part::tree,
-                      [this](std::uint32_t i) { undo_articulation(scene_, scene_.trees[i]); });
-    });
+    in_bundles([this](const FigureBundle& bundle) { undo_trees(bundle); });
     for_each_attachment(world_,
                         [](Attachment& attachment, const AttachmentSides&) { finish_substep(attachment); });
 }

@@ -27,10 +27,16 @@ private:
     template <typename Use>
     void in_contacts(const Use& use);
     template <typename Use>
+    void in_bundles(const Use& use);
+    template <typename Use>
+    void for_each_figure(const FigureBundle& bundle, const Use& use);
+    template <typename Use>
     void in_figures(const Use& use);
     template <typename Use>
     void for_each_joint(const FigureRange& figure, const Use& use);
-    void solve_trees(const FigureRange& figure);
+    void factor_trees(const FigureBundle& bundle);
+    void solve_trees(const FigureBundle& bundle);
+    void undo_trees(const FigureBundle& bundle);
 
     void begin(std::uint32_t substep);
     void strike_all();

@@ -7,6 +7,7 @@
 #include "rigid/figures.h"
 #include "rigid/rigid_substep.h"
 #include "rigid/sleep.h"
+#include "rigid/wide_trees.h"
 #include "solver/object_tick.h"
 #include "solver/world.h"
 
@@ -32,6 +33,7 @@ public:
         }
         find_articulations(scene_);
         find_figures(scene_);
+        find_bundles(scene_);
         // Those that it has woken, too.
         for (Body& body : scene_.bodies) {
             if (body.is_awake()) {

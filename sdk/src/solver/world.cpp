@@ -16,8 +16,8 @@ lks_world::lks_world(const lks_world_def& def)
       excess_time(static_cast<lks_excess_time>(def.excess_time)),
       keep_previous(def.keep_previous_positions != 0),
       worker_count(def.worker_count), gravity{def.gravity.x, def.gravity.y, def.gravity.z},
-      objects(allocator), colliders(allocator), rigid(allocator), assets(allocator), load_staging(allocator),
-      event_log(allocator) {
+      objects(allocator), colliders(allocator), rigid(allocator, kernels->trees), assets(allocator),
+      load_staging(allocator), event_log(allocator) {
     for (lks::TickScratch& worker : scratch) {
         worker.candidates.set_allocator(allocator);
         worker.distances.set_allocator(allocator);
