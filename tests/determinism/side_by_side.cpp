@@ -51,7 +51,12 @@ std::vector<std::uint64_t> hashes(const Assets& assets, lks_simd level, std::uin
                              : i < 60     ? assets.ropes[i / 20 % 2]
                              : i < 90     ? assets.net
                                           : assets.ropes[0];
-        const lks_object_id id = world.add(asset, at(0.02 * i, 1.2, 0.05 * i));
+        // The last ones are far from each other, each above a box of its own.
+        const double x = i < 90 ? 0.02 * i : 40 * (i - 89);
+        const lks_object_id id = world.add(asset, at(x, 1.2, 0.05 * i));
+        if (i >= 90) {
+            add_box(world, fixed(0.2, 0.2, 0.2), fixed(x + 0.5, 0.9, 0.05 * i));
+        }
         if (i % 13 != 12) {
             world.pin(id, i % 29 == 28 ? 7 : 0);
         }

@@ -93,6 +93,34 @@ TEST_CASE("a ball hangs on a rope, which carries its weight") {
     CHECK(state_of(world, ball).position.y < -4);
 }
 
+TEST_CASE("a figure on a rope is not torn off it by a ceiling that it is pulled into") {
+    World world(world_def(60, 8));
+    for (const double side : {-0.6, 0.6}) {
+        add_box(world, fixed(0.5, 0.1, 1), fixed(side, 1.1, 0)); // the rope passes between them
+    }
+    Chain chain;
+    chain.segments = 5;
+    chain.length = 0.5;
+    chain.direction = {0, -1, 0};
+    const Asset rope = chain.build();
+    const lks_object_id object = world.add(rope, at(0, 1.52, 0));
+    world.pin(object, 0);
+    const lks_body_id bar = add_body(world, box_shape(0.4, 0.05, 0.05), fixed(0, 0.97, 0)); // 2 cm in it
+    const lks_body_id weight = add_body(world, ball_shape(0.1), fixed(0, 0.8, 0));
+    lks_joint_def joint = lks_default_joint_def();
+    joint.frame_a.position = fixed(0, -0.1, 0);
+    joint.frame_b.position = fixed(0, 0.07, 0);
+    add_joint(world, joint, bar, weight);
+    const lks_attachment_id id = attach(world, to_body(object, 5, bar, fixed(0, 0.05, 0)));
+    double worst = 0;
+    for (int tick = 0; tick < 120; ++tick) {
+        world.step();
+        worst = std::max(worst, error_of(world, id));
+    }
+    INFO("apart by " << 1e3 * worst << " mm");
+    CHECK(worst < 1e-4);
+}
+
 TEST_CASE("a rope and a body that pull each other keep their momentum") {
     for (const double density : {20.0, 1000.0, 50000.0}) {
         World world(world_def(60, 10));

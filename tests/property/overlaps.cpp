@@ -94,6 +94,31 @@ TEST_CASE("a light box squeezed between the ground and a heavy one comes free, b
     }
 }
 
+TEST_CASE("an arm that hangs on something kinematic is not torn off it by what it is pressed into") {
+    World world(world_def(60, 8));
+    add_box(world, fixed(0.5, 1, 1), fixed(0.65, 1, 0)); // its face is at x = 0.15
+    lks_body_def bracket_def = lks_default_body_def();
+    bracket_def.kind = LKS_BODY_KINEMATIC;
+    const lks_body_id bracket = add_body(world, box_shape(0.05, 0.05, 0.05), fixed(0, 1.6, 0), bracket_def);
+    const lks_body_id arm = add_body(world, box_shape(0.05, 0.2, 0.05), fixed(0, 1.3, 0));
+    const lks_body_id hand = add_body(world, box_shape(0.17, 0.05, 0.05), fixed(0, 1.05, 0)); // 2 cm in it
+    lks_joint_def joint = lks_default_joint_def();
+    joint.kind = LKS_JOINT_FIXED;
+    joint.frame_a.position = fixed(0, -0.1, 0);
+    joint.frame_b.position = fixed(0, 0.2, 0);
+    add_joint(world, joint, bracket, arm);
+    joint.frame_a.position = fixed(0, -0.2, 0);
+    joint.frame_b.position = fixed(0, 0.05, 0);
+    add_joint(world, joint, arm, hand);
+    for (int tick = 0; tick < 60; ++tick) {
+        world.step();
+        const BodyState below = state_of(world, arm);
+        const Vector shoulder = below.position + rotate(below.rotation, {0, 0.2, 0});
+        INFO("tick " << tick << ": " << 1e3 * (shoulder - Vector{0, 1.5, 0}).length() << " mm apart");
+        CHECK((shoulder - Vector{0, 1.5, 0}).length() < 1e-4);
+    }
+}
+
 TEST_CASE("what nothing can free falls asleep, later than what lies free") {
     int ticks[2];
     for (const bool squeezed : {false, true}) {
