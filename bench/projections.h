@@ -20,12 +20,15 @@ public:
     void restore();
 
 private:
-    void put_side_by_side();
+    // Of one object, or of several side by side.
+    struct Work {
+        lks::DistanceWork distances;
+        std::vector<std::ptrdiff_t> places;
+    };
+    Work work_of(lks::Object* const* objects, std::uint32_t count) const;
 
     lks_world* world_;
-    std::vector<lks::DistanceWork> work_;   // by object
-    std::vector<std::size_t> side_by_side_; // how many of them go with the first one, by object
-    std::vector<std::ptrdiff_t> places_;    // of each from the first one
+    std::vector<Work> work_;
     std::vector<std::vector<std::int64_t>> saved_;
 };
 

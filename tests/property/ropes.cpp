@@ -364,14 +364,18 @@ TEST_CASE("a rope shot apart at the speed limit comes together again") {
 
 namespace {
 
+lks_object_id add_damped(World& world, const Asset& asset) {
+    lks_object_def def = object_def(asset, lks_transform_identity());
+    def.linear_damping = fixed(1);
+    return world.add(def);
+}
+
 // A rope whose pins tore it apart by 100 m, 15 s after they came back.
 bool is_whole_after_tearing(double ratio) {
     const Chain chain = direct_chain(40, ratio);
     const Asset asset = chain.build();
     World world(world_def(60, 10));
-    lks_object_def def = object_def(asset, lks_transform_identity());
-    def.linear_damping = fixed(1);
-    const lks_object_id object = world.add(def);
+    const lks_object_id object = add_damped(world, asset);
     world.pin(object, 0);
     world.pin(object, 20);
     world.step(30);
@@ -404,9 +408,7 @@ TEST_CASE("a rope whose pins are a little too far apart lies still between them"
         const Chain chain = direct_chain(40);
         const Asset asset = chain.build();
         World world(world_def(60, 10));
-        lks_object_def def = object_def(asset, lks_transform_identity());
-        def.linear_damping = fixed(1);
-        const lks_object_id object = world.add(def);
+        const lks_object_id object = add_damped(world, asset);
         world.pin(object, 0);
         world.pin(object, 40);
         world.set_target(object, 40, fixed(2 + excess, 0, 0));
@@ -445,9 +447,7 @@ TEST_CASE("a rope lies over a pole with weights at both ends and rests") {
     pole.half_length = fixed(1);
     pole.transform = turned(at(1, -0.3, 0), 1, 0, 0, 90);
     world.add(pole);
-    lks_object_def object_definition = object_def(asset, lks_transform_identity());
-    object_definition.linear_damping = fixed(1);
-    const lks_object_id object = world.add(object_definition);
+    const lks_object_id object = add_damped(world, asset);
     world.step(600);
     const std::vector<Vector> positions = world.positions_from(object, {});
     double deepest = 1;

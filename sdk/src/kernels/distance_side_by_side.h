@@ -86,11 +86,7 @@ public:
         if (at_ >= in_groups_) {
             return false;
         }
-        const RunAccess<L> group = of_object(object_++);
-        next.constraint = group.constraint;
-        next.a = group.a;
-        next.b = group.b;
-        next.done = group.done;
+        next = of_object(object_++);
         return true;
     }
 

@@ -344,9 +344,8 @@ private:
 
     // shifted() of rigid/pair.h
     LKS_FORCE_INLINE R shifted(R v, int up) const {
-        constexpr std::int64_t limit = std::int64_t{1} << 50;
         if (up > 0) {
-            return L::shift_left(clamp(v, limit >> up), L::make_shift(up));
+            return L::shift_left(clamp(v, greatest_shifted >> up), L::make_shift(up));
         }
         if (up == 0) {
             return v;

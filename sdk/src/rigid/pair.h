@@ -83,9 +83,9 @@ struct BlockSide {
 // Adds the body's part to K = Σ wᵢ(1 − r̂ᵢ Ĵᵢ r̂ᵢ): xx, xy, xz, yy, yz, zz, 30 fraction bits.
 BlockSide block_side(const Body& body, std::int32_t share, const fixed::Vec3& lever, std::int64_t (&k)[6]);
 
-// value · 2^shift, rounded to the nearest; saturates at 2^50.
+// value · 2^shift, rounded to the nearest; saturates at greatest_shifted, 2^50.
 inline std::int64_t shifted(std::int64_t value, int shift) {
-    constexpr std::int64_t limit = std::int64_t{1} << 50;
+    constexpr std::int64_t limit = greatest_shifted;
     if (shift <= 0) {
         return shift < -62 ? 0 : fixed::shift_right_rounded(value, -shift);
     }

@@ -11,6 +11,9 @@ namespace lks {
 // carry ever more on.
 inline constexpr std::int64_t greatest_push = std::int64_t{1} << 50;
 
+// What a move or a turn in other units saturates at.
+inline constexpr std::int64_t greatest_shifted = std::int64_t{1} << 50;
+
 // Errors beyond this are taken in several substeps: a bone that was torn 10 m away comes back at a bounded
 // speed.
 inline constexpr std::int64_t greatest_step = std::int64_t{1} << (world_fraction_bits - 1);

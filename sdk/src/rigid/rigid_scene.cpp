@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace lks {
+
 RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_kernels)
     : body_slots(allocator), bodies(allocator), definitions(allocator), joint_slots(allocator),
       joints(allocator), memories(allocator), attachment_slots(allocator), attachments(allocator),

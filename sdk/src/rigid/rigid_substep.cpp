@@ -102,31 +102,19 @@ void RigidSubstep::for_each_joint(const FigureRange& figure, const Use& use) {
     });
 }
 
-void RigidSubstep::factor_trees(const FigureBundle& bundle) {
+// A bundle's trees side by side, or those of its one figure one by one.
+void RigidSubstep::in_trees(const FigureBundle& bundle, void (*wide)(RigidScene&, const FigureBundle&),
+                            void (*plain)(RigidScene&, const ArticulatedTree&)) {
     if (bundle.is_wide()) {
-        factor_bundle(scene_, bundle);
+        wide(scene_, bundle);
         return;
     }
     for_each_part(scene_, scene_.figure_ranges[bundle.first], Part::tree,
-                  [this](std::uint32_t i) { factor_articulation(scene_, scene_.trees[i]); });
+                  [&](std::uint32_t i) { plain(scene_, scene_.trees[i]); });
 }
 
 void RigidSubstep::solve_trees(const FigureBundle& bundle) {
-    if (bundle.is_wide()) {
-        solve_bundle(scene_, bundle);
-        return;
-    }
-    for_each_part(scene_, scene_.figure_ranges[bundle.first], Part::tree,
-                  [this](std::uint32_t i) { solve_articulation(scene_, scene_.trees[i]); });
-}
-
-void RigidSubstep::undo_trees(const FigureBundle& bundle) {
-    if (bundle.is_wide()) {
-        undo_bundle(scene_, bundle);
-        return;
-    }
-    for_each_part(scene_, scene_.figure_ranges[bundle.first], Part::tree,
-                  [this](std::uint32_t i) { undo_articulation(scene_, scene_.trees[i]); });
+    in_trees(bundle, solve_bundle, solve_articulation);
 }
 
 void RigidSubstep::begin(std::uint32_t substep) {
@@ -185,7 +173,7 @@ void RigidSubstep::predict(std::uint32_t substep) {
 
 void RigidSubstep::carry_pushes_on() {
     in_bundles([this](const FigureBundle& bundle) {
-        factor_trees(bundle);
+        in_trees(bundle, factor_bundle, factor_articulation);
         for_each_figure(bundle, [this](const FigureRange& figure) {
             for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::warm_start(joint, a, b); });
         });
@@ -349,7 +337,7 @@ void RigidSubstep::finish() {
     for (const std::uint32_t i : scene_.shared_contacts) {
         undo(i);
     }
-    in_bundles([this](const FigureBundle& bundle) { undo_trees(bundle); });
+    in_bundles([this](const FigureBundle& bundle) { in_trees(bundle, undo_bundle, undo_articulation); });
     for_each_attachment(world_,
                         [](Attachment& attachment, const AttachmentSides&) { finish_substep(attachment); });
 }

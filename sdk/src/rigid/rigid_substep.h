@@ -34,9 +34,9 @@ private:
     void in_figures(const Use& use);
     template <typename Use>
     void for_each_joint(const FigureRange& figure, const Use& use);
-    void factor_trees(const FigureBundle& bundle);
+    void in_trees(const FigureBundle& bundle, void (*wide)(RigidScene&, const FigureBundle&),
+                  void (*plain)(RigidScene&, const ArticulatedTree&));
     void solve_trees(const FigureBundle& bundle);
-    void undo_trees(const FigureBundle& bundle);
 
     void begin(std::uint32_t substep);
     void strike_all();

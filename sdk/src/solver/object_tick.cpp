@@ -35,18 +35,6 @@ public:
         }
     }
 
-    void run() {
-        begin_near_colliders();
-        prepare_batches();
-        for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
-            begin_substep(substep);
-            for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
-                project_batches();
-                resolve_all_contacts(substep);
-            }
-        }
-    }
-
     void begin_near_colliders() { find_candidates(begin(), world_.rate.substeps); }
 
     // Where its particles are at the beginning of the tick.
@@ -69,7 +57,8 @@ public:
 
     void project() {
         prepare_batches();
-        project_batches();
+        hold_by_tethers();
+        sweep_batches();
     }
 
     void collide(std::uint32_t substep) {
@@ -81,12 +70,7 @@ public:
         prepare_distances(asset_, coefficients_, distance_arrays(), scratch_.distances);
     }
 
-    // Tethers come first: what they pull taut is then made even by the constraints.
-    void project_batches() {
-        hold_by_tethers();
-        sweep_batches();
-    }
-
+    // Before the constraints, which make even what is pulled taut.
     void hold_by_tethers() {
         TetherAnchor* anchors = scratch_.anchors.data();
         if (asset_.tethers.empty() || !place_tether_anchors(object_, anchors)) {
@@ -96,6 +80,19 @@ public:
                   [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
                       lks::hold_by_tethers(object_, anchors, *world_.kernels, first, count);
                   });
+    }
+
+    // A rope that is solved directly comes last, so that an iteration ends with no segment stretched.
+    void sweep_batches() {
+        const bool directly = !coefficients_.chain.empty();
+        for (const DistanceTask& task : scratch_.distances.tasks) {
+            if (!directly || !stretches(task)) {
+                project(task);
+            }
+        }
+        if (directly) {
+            solve_rope();
+        }
     }
 
     // Contacts come last in an iteration, so that a substep ends with nothing inside a collider.
@@ -142,19 +139,6 @@ private:
             if (slot.used && may_touch(slot.collider, object_.origin, bounds, asset_.particle_radius)) {
                 candidates_[candidate_count_++] = i;
             }
-        }
-    }
-
-    // A rope that is solved directly comes last, so that an iteration ends with no segment stretched.
-    void sweep_batches() {
-        const bool directly = !coefficients_.chain.empty();
-        for (const DistanceTask& task : scratch_.distances.tasks) {
-            if (!directly || !stretches(task)) {
-                project(task);
-            }
-        }
-        if (directly) {
-            solve_rope();
         }
     }
 
@@ -318,32 +302,28 @@ private:
     std::uint32_t candidate_count_ = 0;
 };
 
-// Objects that are alike (solver/side_by_side.h): all do each step before any does the next, and constraints
-// are projected for all of them at once.
+// How one object, or several side by side, move through one tick: all do each step before any does the next,
+// and the constraints of all are projected by the first one.
 class ObjectsTick {
 public:
-    ObjectsTick(const lks_world& world, Object* const* objects, std::uint32_t count, TickScratch& scratch)
-        : world_(world), scratch_(scratch), count_(count) {
+    ObjectsTick(const lks_world& world, Object* const* objects, std::uint32_t count, TickScratch& scratch,
+                Team* team)
+        : world_(world), scratch_(scratch), objects_(objects), count_(count) {
         for (std::uint32_t i = 0; i < count; ++i) {
-            ticks_[i].emplace(world, *objects[i], scratch, nullptr, i);
-            places_[i] = distance_between(*objects[0], *objects[i]);
+            ticks_[i].emplace(world, *objects[i], scratch, team, i);
         }
     }
 
     void run() {
         each([](ObjectTick& tick) { tick.begin_near_colliders(); });
         ticks_[0]->prepare_batches();
-        for (DistanceTask& task : scratch_.distances.tasks) {
-            task.objects = places_;
-            task.object_count = count_;
-        }
+        std::ptrdiff_t places[most_side_by_side];
+        put_side_by_side(objects_, count_, scratch_.distances, places);
         for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
             each([&](ObjectTick& tick) { tick.begin_substep(substep); });
             for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
                 each([](ObjectTick& tick) { tick.hold_by_tethers(); });
-                for (const DistanceTask& task : scratch_.distances.tasks) {
-                    world_.kernels->project_distances(task);
-                }
+                ticks_[0]->sweep_batches();
                 each([&](ObjectTick& tick) { tick.resolve_all_contacts(substep); });
             }
         }
@@ -359,20 +339,21 @@ private:
 
     const lks_world& world_;
     TickScratch& scratch_;
+    Object* const* objects_;
     std::uint32_t count_;
     std::optional<ObjectTick> ticks_[most_side_by_side];
-    std::ptrdiff_t places_[most_side_by_side];
 };
 
 } // namespace
 
 void run_object_tick(const lks_world& world, Object& object, TickScratch& scratch, Team* team) {
-    ObjectTick(world, object, scratch, team).run();
+    Object* const alone = &object;
+    ObjectsTick(world, &alone, 1, scratch, team).run();
 }
 
 void run_objects_tick(const lks_world& world, Object* const* objects, std::uint32_t count,
                       TickScratch& scratch) {
-    ObjectsTick(world, objects, count, scratch).run();
+    ObjectsTick(world, objects, count, scratch, nullptr).run();
 }
 
 void begin_object_tick(const lks_world& world, Object& object, TickScratch& scratch) {

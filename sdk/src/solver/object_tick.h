@@ -11,7 +11,7 @@ namespace lks {
 // team: null, or who helps with the blocks of each phase. The bits are the same.
 void run_object_tick(const lks_world& world, Object& object, TickScratch& scratch, Team* team);
 
-// Objects that may go side by side (solver/side_by_side.h): the same bits.
+// One, or several that may go side by side (solver/side_by_side.h): the same bits.
 void run_objects_tick(const lks_world& world, Object* const* objects, std::uint32_t count,
                       TickScratch& scratch);
 

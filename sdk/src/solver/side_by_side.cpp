@@ -13,6 +13,14 @@ bool in_runs_only(const lks_asset& asset) {
                        [](const Batch& batch) { return batch.first_single == batch.first + batch.count; });
 }
 
+// In elements, of one object's particles from another's. They are parts of no common array, but all are
+// aligned.
+std::ptrdiff_t distance_between(const std::int64_t* from, const std::int64_t* to) {
+    const auto bytes = static_cast<std::intptr_t>(reinterpret_cast<std::uintptr_t>(to) -
+                                                  reinterpret_cast<std::uintptr_t>(from));
+    return bytes / static_cast<std::intptr_t>(sizeof(std::int64_t));
+}
+
 } // namespace
 
 bool may_go_side_by_side(const Kernels& kernels, const Object& object) {
@@ -26,11 +34,18 @@ bool are_alike(const Object& a, const Object& b) {
                       [](const Pin& p, const Pin& q) { return p.particle == q.particle; });
 }
 
-// They are parts of no common array, but all are aligned.
-std::ptrdiff_t distance_between(const Object& from, const Object& to) {
-    const auto bytes = static_cast<std::intptr_t>(reinterpret_cast<std::uintptr_t>(to.axis(0)) -
-                                                  reinterpret_cast<std::uintptr_t>(from.axis(0)));
-    return bytes / static_cast<std::intptr_t>(sizeof(std::int64_t));
+void put_side_by_side(const Object* const* objects, std::uint32_t count, DistanceWork& work,
+                      std::ptrdiff_t* places) {
+    if (count == 1) {
+        return;
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        places[i] = distance_between(objects[0]->axis(0), objects[i]->axis(0));
+    }
+    for (DistanceTask& task : work.tasks) {
+        task.objects = places;
+        task.object_count = count;
+    }
 }
 
 } // namespace lks

@@ -40,52 +40,18 @@ bool runs_alone(const lks_world& world, std::size_t object) {
     return world.objects[object].object != nullptr && !is_coupled(world.rigid, object);
 }
 
-// Objects that follow each other and are alike go side by side.
-class Neighbours {
-public:
-    Neighbours(const lks_world& world, TickScratch& scratch) : world_(world), scratch_(scratch) {}
-    ~Neighbours() { run(); }
-    Neighbours(const Neighbours&) = delete;
-    Neighbours& operator=(const Neighbours&) = delete;
-
-    void add(Object& object) {
-        if (count_ == most_side_by_side || (count_ != 0 && !are_alike(*objects_[0], object))) {
-            run();
-        }
-        if (!may_go_side_by_side(*world_.kernels, object)) {
-            run();
-            run_object_tick(world_, object, scratch_, nullptr);
-            return;
-        }
-        objects_[count_++] = &object;
-    }
-
-private:
-    void run() {
-        if (count_ >= least_side_by_side) {
-            run_objects_tick(world_, objects_, count_, scratch_);
-        } else {
-            for (std::uint32_t i = 0; i < count_; ++i) {
-                run_object_tick(world_, *objects_[i], scratch_, nullptr);
-            }
-        }
-        count_ = 0;
-    }
-
-    const lks_world& world_;
-    TickScratch& scratch_;
-    Object* objects_[most_side_by_side];
-    std::uint32_t count_ = 0;
-};
-
 // All objects by the caller alone.
 void run_objects(lks_world& world) {
-    Neighbours neighbours(world, world.scratch[0]);
+    const auto run = [&](Object* const* objects, std::uint32_t count) {
+        run_objects_tick(world, objects, count, world.scratch[0]);
+    };
+    Neighbours neighbours(*world.kernels, run);
     for (std::size_t i = 0; i < world.objects.size(); ++i) {
         if (runs_alone(world, i)) {
             neighbours.add(*world.objects[i].object);
         }
     }
+    neighbours.finish();
 }
 
 // Of objects that a worker takes at once: as many as go side by side, and some eight blocks a worker, so that
@@ -104,17 +70,21 @@ void run_objects_by_team(lks_world& world, Team& team) {
     };
     const std::size_t count = world.objects.size();
     Context context{world, size_of_block(count, world.worker_count)};
-    const auto run = [](void* argument, std::uint32_t block, std::uint32_t worker) {
+    const auto run_block = [](void* argument, std::uint32_t block, std::uint32_t worker) {
         const Context& c = *static_cast<Context*>(argument);
-        Neighbours neighbours(c.world, c.world.scratch[worker]);
+        const auto run = [&](Object* const* objects, std::uint32_t number) {
+            run_objects_tick(c.world, objects, number, c.world.scratch[worker]);
+        };
+        Neighbours neighbours(*c.world.kernels, run);
         const std::size_t end = std::min(c.world.objects.size(), (block + 1) * c.size);
         for (std::size_t i = block * c.size; i < end; ++i) {
             if (runs_alone(c.world, i) && !is_large(*c.world.objects[i].object)) {
                 neighbours.add(*c.world.objects[i].object);
             }
         }
+        neighbours.finish();
     };
-    team.run({run, &context, static_cast<std::uint32_t>((count + context.size - 1) / context.size)});
+    team.run({run_block, &context, static_cast<std::uint32_t>((count + context.size - 1) / context.size)});
     for (std::size_t i = 0; i < world.objects.size(); ++i) {
         if (runs_alone(world, i) && is_large(*world.objects[i].object)) {
             run_object_tick(world, *world.objects[i].object, world.scratch[0], &team);
