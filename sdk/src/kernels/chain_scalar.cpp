@@ -41,9 +41,10 @@ LKS_FORCE_INLINE fixed::Vec3 half_direction(const fixed::Vec3& v) {
     return {half_component(v.x), half_component(v.y), half_component(v.z)};
 }
 
-// a·b / 2^32, rounded down.
+// a·b / 2^32, rounded down; of b the low half counts.
 LKS_FORCE_INLINE std::int64_t share_32(std::int64_t a, std::int64_t b) {
-    return fixed::multiply_signed(as_it_stands(a), as_it_stands(b * (std::int64_t{1} << 32))).hi;
+    const auto factor = static_cast<std::int64_t>(static_cast<std::uint64_t>(b) << 32);
+    return fixed::multiply_signed(as_it_stands(a), as_it_stands(factor)).hi;
 }
 
 // What of a vector is along a rope: its product with t, times 1/|t|², along t. Only where a rope turns by
