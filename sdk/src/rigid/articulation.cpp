@@ -320,24 +320,14 @@ private:
     // |r|²·tr Ĵ − rᵀĴr, World.
     void add_load(std::uint32_t index, const Joint& joint, bool on_a) {
         const Body& body = scene_.bodies[index];
-        const PairShares& shares = joint.constants.shares;
-        const Vec3& point = point_of(joint, on_a);
-        const auto in_units = [&](std::int64_t length) {
-            return body.scale >= 0 ? length >> body.scale : length * (std::int64_t{1} << -body.scale);
-        };
-        fixed::NormalisedVector lever{};
-        if (!fixed::normalise(point, lever)) {
-            return;
-        }
-        const SymmetricMatrix& m = body.inverse_inertia;
-        const Direction& d = lever.direction;
-        const std::int64_t along = fixed::dot(d, multiply(m, Vec3{d.x, d.y, d.z})); // 30 fraction bits
-        const std::int64_t across = std::int64_t{m.xx} + m.yy + m.zz - along;
-        const std::int64_t pull = in_units(
-            std::min(fixed::scale_component(on_a ? shares.a : shares.b, joint.tension), greatest_push));
+        const JointConstants& c = joint.constants;
+        const SwingArm& arm = on_a ? c.arm_a : c.arm_b;
+        const std::int32_t share = on_a ? c.shares.a : c.shares.b;
+        const std::int64_t pull =
+            in_units(body, std::min(fixed::scale_component(share, joint.tension), greatest_push));
         const std::int64_t load =
-            fixed::multiply_shift(fixed::multiply_shift(pull, in_units(lever.length), world_fraction_bits),
-                                  across, 30 - body.inverse_shift);
+            fixed::multiply_shift(fixed::multiply_shift(pull, arm.length, world_fraction_bits), arm.across,
+                                  30 - body.inverse_shift);
         std::int64_t& sum = scene_.articulated[index].load;
         sum = std::min(fixed::saturating_add(sum, load), greatest_load);
     }

@@ -60,9 +60,22 @@ struct JointDescription {
     SoftLimits limits;           // last: rigid ones are no part of hashes
 };
 
+// A length, World, in the body's unit.
+constexpr std::int64_t in_units(const Body& body, std::int64_t length) {
+    return body.scale >= 0 ? length >> body.scale : length * (std::int64_t{1} << -body.scale);
+}
+
+// How far a pull at the joint's point swings a body.
+struct SwingArm {
+    std::int64_t length; // of the lever, World, in the body's unit
+    std::int64_t across; // tr Ĵ − r̂ᵀĴr̂, 30 fraction bits
+};
+
 // What follows from the description and the bodies' masses.
 struct JointConstants {
     PairShares shares;
+    SwingArm arm_a;
+    SwingArm arm_b;
     fixed::Direction axis_a; // of the frames, in the bodies' axes
     fixed::Direction axis_b;
     bool swing_limited;

@@ -28,6 +28,17 @@ Direction frame_axis(const fixed::Rotation& frame, int axis) {
     return {m.m[0][axis], m.m[1][axis], m.m[2][axis]};
 }
 
+SwingArm swing_arm(const Body& body, const fixed::Vec3& point) {
+    fixed::NormalisedVector lever{};
+    if (!fixed::normalise(point, lever)) {
+        return {0, 0};
+    }
+    const SymmetricMatrix& m = body.inverse_inertia;
+    const Direction& d = lever.direction;
+    const std::int64_t along = fixed::dot(d, multiply(m, fixed::Vec3{d.x, d.y, d.z}));
+    return {in_units(body, lever.length), std::int64_t{m.xx} + m.yy + m.zz - along};
+}
+
 void set_swing(JointConstants& c, const JointDescription& d) {
     const std::int64_t z = d.swing_limit_z < 0 ? d.swing_limit : d.swing_limit_z;
     c.swing_limited = d.kind == LKS_JOINT_BALL && std::min(d.swing_limit, z) < half_circle_degrees;
@@ -102,6 +113,8 @@ JointConstants make_joint_constants(const JointDescription& d, const Body& a, co
                                     const StepRate& rate) {
     JointConstants c{};
     c.shares = pair_shares(a.inverse_mass, b.inverse_mass);
+    c.arm_a = swing_arm(a, d.point_a);
+    c.arm_b = swing_arm(b, d.point_b);
     c.axis_a = frame_axis(d.frame_a, 1);
     c.axis_b = frame_axis(d.frame_b, 1);
     set_swing(c, d);
