@@ -173,8 +173,9 @@ void project_exactly(Edge& edge) {
             dot = dot - d[axis] * between(start, -one, one - big(1));
         }
         const B aligned = rounded(between(dot, -u, u) << (2 * k), 34);
-        const B motion = rounded(aligned * floored(y * y, 32), 28);
-        f = rounded(B::from_u64(p.error_share) * f - B::from_u64(p.damping_share) * motion,
+        const B motion = floored(aligned * floored(y * y, 32), 28);
+        const B half = power(unit_fraction_bits - 1) - B::from_u64(p.damping_share / 2);
+        f = floored(B::from_u64(p.error_share) * f - B::from_u64(p.damping_share) * motion + half,
                     unit_fraction_bits);
     }
     if (edge.relaxed) {

@@ -76,7 +76,7 @@ public:
         // Whether a lane is not as these words want it, or its motion is too large.
         const auto leaves = [&](R words) {
             if constexpr (damped) {
-                words = L::bit_or(words, exceeds(F::high_words(group.motion), high_u));
+                words = L::bit_or(words, exceeds(high_magnitudes(group.motion), high_u));
             }
             if constexpr (!Access::whole) {
                 words = L::bit_and(words, F::high_words(at.masked({L::set(-1), L::set(-1)})));
@@ -87,7 +87,11 @@ public:
         if constexpr (!L::has_shift_each) {
             group.in_octave = !leaves(octave_.leaves(high_u));
         }
-        group.plain = !group.in_octave && leaves(L::equal_32(high_u, L::set_32(0)));
+        if constexpr (damped) {
+            group.plain = !group.in_octave && leaves(L::set_32(0)); // u is larger than what it exceeds
+        } else {
+            group.plain = !group.in_octave && leaves(L::equal_32(high_u, L::set_32(0)));
+        }
     }
 
     // Of n groups at once.
@@ -104,11 +108,11 @@ public:
             const G ratio = F::multiply_unsigned(at[i].load(task_.rest_mantissas), lengths.y);
             if (in_octave) [[likely]] {
                 // It is in the upper half, and not limited: below 2.
-                groups[i].f = F::of_words(L::subtract_32(F::high_words(ratio), L::set_32(direction_one)));
+                groups[i].f = error_or_ratio(F::high_words(ratio));
             } else {
-                groups[i].f = relative_error_each<L>(ratio, ratio_shift_, lengths.twice_k);
+                groups[i].f = error_or_ratio(ratio, lengths.twice_k);
             }
-            find_correction(at[i], groups[i], lengths);
+            find_correction(at[i], groups[i], lengths, in_octave);
         }
     }
 
@@ -133,12 +137,13 @@ public:
         for (int axis = 0; axis < 3; ++axis) {
             find_difference(group.at, axis, group.staged.d, sums, beyond);
         }
-        group.staged.plain = leaves(sums, beyond);
+        look_at<true>(group.staged, sums, beyond);
     }
 
     // From the sums of a group and f of the one before it the sums of the next and f of its own.
     // Between the steps of its square root the differences of the next are found, and the one before moves,
-    // as both ends are alike.
+    // as both ends are alike. `in_octave`: the group's lengths are.
+    template <bool in_octave>
     LKS_FORCE_INLINE void roll(const RollingGroup<L>& before, const RollingGroup<L>& now,
                                RollingGroup<L>& next, OfDifferences& sums, N& f) const {
         R beyond = L::set(0);
@@ -148,16 +153,16 @@ public:
             find_difference(next.at, axis, next.staged.d, of_next, beyond);
             move_axis(before.at, axis, before.staged.d[axis], gain);
         };
-        const Aligned<L, 1> aligned = align_each<L, 1>(Each<G, 1>{{sums.u}});
+        const Aligned<L, 1> aligned = align_sum<in_octave>(sums.u);
         const auto words = reciprocal_sqrt_lanes<L, 1>(aligned.m, meanwhile);
         const Lengths lengths{aligned.twice_k[0], aligned.m[0].factors, F::of_words(words[0])};
         const G ratio = F::multiply_unsigned(now.at.load(task_.rest_mantissas), lengths.y);
-        f = relative_error_each<L>(ratio, ratio_shift_, lengths.twice_k);
+        f = in_octave ? error_or_ratio(F::high_words(ratio)) : error_or_ratio(ratio, lengths.twice_k);
         if constexpr (damped) {
-            f = F::low(damp(sums.motion, f, lengths));
+            f = F::low(damp(sums.motion, f, lengths, in_octave));
         }
         now.at.clear_done(f);
-        next.staged.plain = leaves(of_next, beyond);
+        look_at<in_octave>(next.staged, of_next, beyond);
         sums = of_next;
     }
 
@@ -180,13 +185,50 @@ private:
         }
         add_product(sums.u, axis, d[axis], d[axis]);
     }
-    LKS_FORCE_INLINE bool leaves(const OfDifferences& sums, R beyond) const {
+    // Whether a rolling group is one of a single octave, where that is asked, and whether it leaves the fast
+    // range.
+    template <bool asks_octave>
+    LKS_FORCE_INLINE void look_at(StagedGroup<L>& group, const OfDifferences& sums, R beyond) const {
         const R high_u = F::high_words(sums.u);
+        group.in_octave = asks_octave && is_in_octave(sums, high_u, beyond);
+        group.plain = !group.in_octave && leaves(sums, high_u, beyond);
+    }
+    LKS_FORCE_INLINE bool is_in_octave(const OfDifferences& sums, R high_u, R beyond) const {
+        if constexpr (L::has_mask_tests) {
+            const bool outside =
+                L::any_beyond_or_outside(beyond, high_u, octave_.lowest(), octave_.highest());
+            if constexpr (damped) {
+                return !outside & !L::any_beyond_or_not_greater(beyond, high_u, high_magnitudes(sums.motion));
+            } else {
+                return !outside;
+            }
+        } else {
+            R words = octave_.leaves(high_u);
+            if constexpr (damped) {
+                words = L::bit_or(words, exceeds(high_magnitudes(sums.motion), high_u));
+            }
+            return !narrow_.leaves(beyond, words);
+        }
+    }
+    LKS_FORCE_INLINE bool leaves(const OfDifferences& sums, R high_u, R beyond) const {
         if constexpr (damped) {
-            return narrow_.leaves(beyond, L::bit_or(L::equal_32(high_u, L::set_32(0)),
-                                                    exceeds(F::high_words(sums.motion), high_u)));
+            const R magnitudes = high_magnitudes(sums.motion);
+            if constexpr (L::has_mask_tests) {
+                return L::any_beyond_or_not_greater(beyond, high_u, magnitudes);
+            } else {
+                return narrow_.leaves(beyond, exceeds(magnitudes, high_u));
+            }
         } else {
             return narrow_.leaves_or_vanishes(beyond, high_u);
+        }
+    }
+
+    template <bool in_octave>
+    LKS_FORCE_INLINE Aligned<L, 1> align_sum(const G& u) const {
+        if constexpr (in_octave) {
+            return {{{octave_.align(u)}}, {{G{octave_.twice_k(), octave_.twice_k()}}}};
+        } else {
+            return align_each<L, 1>(Each<G, 1>{{u}});
         }
     }
 
@@ -211,10 +253,10 @@ private:
     }
 
     template <typename Access>
-    LKS_FORCE_INLINE void find_correction(const Access& at, StagedGroup<L>& group,
-                                          const Lengths& lengths) const {
+    LKS_FORCE_INLINE void find_correction(const Access& at, StagedGroup<L>& group, const Lengths& lengths,
+                                          [[maybe_unused]] bool in_octave) const {
         if constexpr (soft && (damped || multiplier)) {
-            group.plain = !soften(at, group, lengths) || group.plain;
+            group.plain = !soften(at, group, lengths, in_octave) || group.plain;
         }
         if constexpr (multiplier) {
             at.clear_done(group.f);
@@ -236,11 +278,23 @@ private:
         return narrow_(wide, beyond);
     }
 
-    // The sign bit of words in which |motion| might exceed u, from the high halves of both.
-    LKS_FORCE_INLINE static R exceeds(R high_motion, R high_u) {
-        const R below = L::add_32(high_u, high_motion);
-        const R above = L::subtract_32(L::add_32(high_u, L::set_32(-1)), high_motion);
-        return L::bit_and(L::bit_or(below, above), L::set_32(INT32_MIN));
+    // Where a high half of u is larger than one of these, |motion| is below u.
+    LKS_FORCE_INLINE static R high_magnitudes(const G& motion) {
+        return L::absolute_32(F::high_words(motion));
+    }
+    // The sign bit of words in which it is not.
+    LKS_FORCE_INLINE static R exceeds(R magnitudes, R high_u) {
+        return L::subtract_32(L::add_32(high_u, L::set_32(-1)), magnitudes);
+    }
+
+    // What damping starts from is L/len, all else g = L/len − 1. In words, or from L/len times
+    // 2^(ratio_shift_ − k).
+    LKS_FORCE_INLINE static N error_or_ratio(R ratio) {
+        return F::of_words(damped ? ratio : L::subtract_32(ratio, L::set_32(direction_one)));
+    }
+    LKS_FORCE_INLINE N error_or_ratio(const G& product, const G& twice_k) const {
+        const N ratio = limited_ratio_each<L>(product, ratio_shift_, twice_k);
+        return damped ? ratio : F::less(ratio, F::constant(direction_one));
     }
 
     // sum = v·w for the first axis, and more by it for the others.
@@ -253,10 +307,11 @@ private:
 
     // f from g. False: a lane leaves the fast range.
     template <typename Access>
-    LKS_FORCE_INLINE bool soften(const Access& at, StagedGroup<L>& group, const Lengths& lengths) const {
+    LKS_FORCE_INLINE bool soften(const Access& at, StagedGroup<L>& group, const Lengths& lengths,
+                                 [[maybe_unused]] bool in_octave) const {
         [[maybe_unused]] const bool relaxed = task_.relaxations != nullptr;
         if constexpr (damped) {
-            const G f = damp(group.motion, group.f, lengths);
+            const G f = damp(group.motion, group.f, lengths, in_octave);
             if constexpr (multiplier) {
                 if (relaxed) {
                     return relax_by_multiplier(at, lengths, f, group.f);
@@ -292,28 +347,35 @@ private:
                !L::any(L::bit_and(above, L::set(~std::int64_t{INT32_MAX})));
     }
 
-    // c·g − γ'·motion/u. Only the low halves count where there are no multipliers: f is within ±1.
-    LKS_FORCE_INLINE G damp(const G& motion, const N& g, const Lengths& lengths) const {
-        const auto align = [](R product, R twice_k) {
-            return L::add(L::shift_left_each(product, L::subtract(twice_k, L::set(2))),
+    // motion·2^(2k − 2), high halves to the nearest.
+    LKS_FORCE_INLINE N align_motion(const G& motion, const G& twice_k, bool in_octave) const {
+        if (in_octave) [[likely]] {
+            return octave_.align_signed(motion);
+        }
+        const auto align = [](R product, R k2) {
+            return L::add(L::shift_left_each(product, L::subtract(k2, L::set(2))),
                           L::set(std::int64_t{1} << 31));
         };
-        const N high = F::high({align(motion.a, lengths.twice_k.a), align(motion.b, lengths.twice_k.b)});
+        return F::high({align(motion.a, twice_k.a), align(motion.b, twice_k.b)});
+    }
+
+    // c·(L/len − 1) − γ'·motion/u. Only the low halves count where there are no multipliers: f is within ±1.
+    LKS_FORCE_INLINE G damp(const G& motion, const N& ratio, const Lengths& lengths, bool in_octave) const {
         const N reciprocal = F::high(F::multiply_unsigned(lengths.y, lengths.y));
-        const auto rounded = [](R product) {
-            return L::template shift_right<28>(L::add(product, L::set(std::int64_t{1} << 27)));
-        };
-        const G product = F::multiply_signed(high, reciprocal);
-        const N share = F::low({rounded(product.a), rounded(product.b)});
-        const G error = F::multiply_signed(F::splat(F::constant(task_.parameters.error_share)), g);
-        const G damping = F::multiply_signed(F::splat(F::constant(task_.parameters.damping_share)), share);
+        const G product = F::multiply_signed(align_motion(motion, lengths.twice_k, in_octave), reciprocal);
+        const N share =
+            F::low({L::template shift_right<28>(product.a), L::template shift_right<28>(product.b)});
+        const std::int64_t error_share = task_.parameters.error_share;
+        const std::uint32_t damping_share = task_.parameters.damping_share;
+        const std::int64_t before = damped_rounding(damping_share) - error_share * direction_one;
+        const G error = F::multiply_unsigned(F::splat(F::constant(error_share)), ratio); // at most 2^62
+        const G damping = F::multiply_signed(F::splat(F::constant(damping_share)), share);
         const G f{L::subtract(error.a, damping.a), L::subtract(error.b, damping.b)};
         if constexpr (multiplier) {
-            return rounded_unit_shift()(f);
+            return SignedShift<L>(unit_fraction_bits, before)(f);
         } else {
-            const auto low = [](R sum) {
-                return L::template shift_right<unit_fraction_bits>(
-                    L::add(sum, L::set(std::int64_t{1} << (unit_fraction_bits - 1))));
+            const auto low = [before](R sum) {
+                return L::template shift_right<unit_fraction_bits>(L::add(sum, L::set(before)));
             };
             return {low(f.a), low(f.b)};
         }
@@ -421,7 +483,7 @@ private:
     Narrowing<L> narrow_;
     GainShift<L> rounded_gain_shift_;
     SignedShift<L> product_shift_;
-    OctaveOf<L> octave_;
+    Octave<L> octave_;
     R ratio_shift_;
     std::int64_t* axes_[3];
     const std::int64_t* starts_[3];

@@ -4,6 +4,9 @@
 // In stages (kernels/distance_lanes.h) groups keep in memory what the next stage needs. Here most of it stays
 // in registers. That pays where many groups follow each other: the first and the last have nobody to share
 // their time with.
+//
+// Lengths of one octave are shifted by one count, and their ratios are not limited. So groups roll as long as
+// they are in the octave of the longest rest length, and behind the first that is not by counts of their own.
 #pragma once
 
 #include <algorithm>
@@ -38,6 +41,7 @@ private:
     void begin() {
         before_->at = now_->at;
         groups_.begin(*now_, sums_);
+        in_octave_ = now_->staged.in_octave;
         now_->apart = is_apart(*now_);
         std::copy_n(now_->staged.d, 3, before_->staged.d);
         f_ = FactorsOf<L>::none();
@@ -47,6 +51,10 @@ private:
     // A group and those that follow it in its run, until one is to move apart. There is no call among them:
     // compilers would keep in memory what lives longer than a call.
     template <typename Runs>
+    LKS_FORCE_INLINE void roll_through(Runs& runs) {
+        in_octave_ ? roll_through<true>(runs) : roll_through<false>(runs);
+    }
+    template <bool in_octave, typename Runs>
     LKS_NEVER_INLINE void roll_through(Runs& runs) {
         if (before_->apart) {
             settle(*before_);
@@ -59,13 +67,14 @@ private:
         auto sums = sums_;
         Factors<L> f = f_;
         do {
-            groups.roll(*before, *now, *next, sums, f);
+            groups.template roll<in_octave>(*before, *now, *next, sums, f);
             next->apart = is_apart(*next);
             RollingGroup<L>* const free = before;
             before = now;
             now = next;
             next = free;
-        } while (!before->apart && runs.take_more(next->at));
+        } while (!before->apart && now->staged.in_octave == in_octave && runs.take_more(next->at));
+        in_octave_ = now->staged.in_octave;
         before_ = before;
         now_ = now;
         next_ = next;
@@ -90,6 +99,7 @@ private:
     RollingGroup<L>* next_ = &slots_[2];
     typename Groups::OfDifferences sums_; // of the group whose turn it is
     Factors<L> f_;                        // of the one before
+    bool in_octave_ = false;              // all until now
 };
 
 } // namespace

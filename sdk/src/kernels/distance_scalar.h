@@ -75,6 +75,12 @@ inline std::int64_t unit_multiply(std::uint32_t unit, std::int64_t value) {
     return shift_right_rounded(value * static_cast<std::int64_t>(unit), unit_fraction_bits);
 }
 
+// Half a unit of f, less by what motions that are rounded down add to it on the average. What neither is too
+// long nor moves stays where it is.
+constexpr std::int64_t damped_rounding(std::uint32_t damping_share) {
+    return (std::int64_t{1} << (unit_fraction_bits - 1)) - (damping_share >> 1);
+}
+
 template <bool soft, bool damped, bool multiplier>
 class Projection {
 public:
@@ -142,10 +148,11 @@ private:
                                  int scale) const {
         std::int64_t f = g;
         if constexpr (damped) {
-            const std::int64_t motion = relative_motion(a, b, d, u, y, k, scale);
-            f = shift_right_rounded(static_cast<std::int64_t>(parameters_.error_share) * g -
-                                        static_cast<std::int64_t>(parameters_.damping_share) * motion,
-                                    unit_fraction_bits);
+            const std::int64_t motion = relative_motion(a, b, d, u, y, k);
+            f = (static_cast<std::int64_t>(parameters_.error_share) * g -
+                 static_cast<std::int64_t>(parameters_.damping_share) * motion +
+                 damped_rounding(parameters_.damping_share)) >>
+                unit_fraction_bits;
         }
         if constexpr (multiplier) {
             if (relaxations_ != nullptr) {
@@ -160,25 +167,40 @@ private:
         return f;
     }
 
-    // n·(Δx_a − Δx_b) / len since the start of the substep in Direction format, within ±1: with d and the
-    // same difference at the start, d·(d − d_start) / u.
-    std::int64_t relative_motion(std::ptrdiff_t a, std::ptrdiff_t b, const NarrowDifference& d,
-                                 std::uint64_t u, std::uint32_t y, int k, int scale) const {
-        const auto start_difference = [&](const std::int64_t* start) {
-            return std::clamp<std::int64_t>(
-                shift_right_rounded_any(wrapping_subtract(start[a], start[b]), scale), -direction_one,
-                direction_one - 1);
-        };
+    // n·(Δx_a − Δx_b) / len since the start of the substep in Direction format, within ±1, rounded down: with
+    // d and the same difference at the start, d·(d − d_start) / u.
+    LKS_FORCE_INLINE std::int64_t relative_motion(std::ptrdiff_t a, std::ptrdiff_t b,
+                                                  const NarrowDifference& d, std::uint64_t u, std::uint32_t y,
+                                                  int k) const {
+        const Difference start = start_difference(a, b, d.extra);
         const auto squared = static_cast<std::int64_t>(u); // below 2^62, so that k ≥ 1
         const std::int64_t dot =
-            std::clamp(squared - d.x * start_difference(arrays_.start_x) -
-                           d.y * start_difference(arrays_.start_y) - d.z * start_difference(arrays_.start_z),
-                       -squared, squared);
-        // Below 2^62. u is m·2^(62 − 2k) with m in [1, 4), and y² is 1/m: rounded, as a floor would damp
-        // what does not move.
+            std::clamp(squared - d.x * start.x - d.y * start.y - d.z * start.z, -squared, squared);
+        // u is m·2^(62 − 2k) with m in [1, 4), and y² is 1/m. Below 2^62.
         const std::int64_t aligned = shift_right_rounded(dot * (std::int64_t{1} << (2 * k - 2)), 32);
         const auto reciprocal = static_cast<std::int64_t>(std::uint64_t{y} * y >> 32);
-        return shift_right_rounded(aligned * reciprocal, 28);
+        return (aligned * reciprocal) >> 28;
+    }
+
+    // In units of 2^(difference_shift + extra), within ±2^30.
+    LKS_FORCE_INLINE Difference start_difference(std::ptrdiff_t a, std::ptrdiff_t b, int extra) const {
+        const std::int64_t* x = as_it_stands(arrays_.start_x);
+        const std::int64_t* y = as_it_stands(arrays_.start_y);
+        const std::int64_t* z = as_it_stands(arrays_.start_z);
+        const Difference wide{wrapping_subtract(x[a], x[b]), wrapping_subtract(y[a], y[b]),
+                              wrapping_subtract(z[a], z[b])};
+        const int shift = parameters_.difference_shift;
+        const Difference near{wrapping_add(wide.x, difference_rounding_) >> shift,
+                              wrapping_add(wide.y, difference_rounding_) >> shift,
+                              wrapping_add(wide.z, difference_rounding_) >> shift};
+        if (extra == 0 && fit_differences(near.x, near.y, near.z)) {
+            return near;
+        }
+        const auto narrow = [&](std::int64_t difference) {
+            return std::clamp<std::int64_t>(shift_right_rounded_any(difference, shift + extra),
+                                            -direction_one, direction_one - 1);
+        };
+        return {narrow(wide.x), narrow(wide.y), narrow(wide.z)};
     }
 
     // f·len in Coordinate format, rounded down.

@@ -89,6 +89,7 @@ struct LanesAvx2 {
     static Register subtract_32(Register a, Register b) { return _mm256_sub_epi32(a, b); }
     static Register equal_32(Register a, Register b) { return _mm256_cmpeq_epi32(a, b); }
     static Register greater_32(Register a, Register b) { return _mm256_cmpgt_epi32(a, b); }
+    static Register absolute_32(Register v) { return _mm256_abs_epi32(v); }
     static Register minimum_32(Register a, Register b) { return _mm256_min_epi32(a, b); }
     static Register multiply_low_32(Register a, Register b) { return _mm256_mullo_epi32(a, b); }
     template <int count>

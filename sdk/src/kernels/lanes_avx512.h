@@ -95,6 +95,7 @@ struct LanesAvx512 {
     static Register greater_32(Register a, Register b) {
         return _mm512_movm_epi32(_mm512_cmpgt_epi32_mask(a, b));
     }
+    static Register absolute_32(Register v) { return _mm512_abs_epi32(v); }
     static Register minimum_32(Register a, Register b) { return _mm512_min_epi32(a, b); }
     static Register multiply_low_32(Register a, Register b) { return _mm512_mullo_epi32(a, b); }
     template <int count>
@@ -139,6 +140,16 @@ struct LanesAvx512 {
     static bool any_beyond_or_zero(Register lanes, Register words) {
         const __mmask8 beyond = _mm512_test_epi64_mask(lanes, _mm512_set1_epi64(~std::int64_t{INT32_MAX}));
         return (beyond | _mm512_testn_epi32_mask(words, words)) != 0;
+    }
+    // Whether a 64-bit lane is 2^31 or more, or a word not between these.
+    static bool any_beyond_or_outside(Register lanes, Register words, Register least, Register most) {
+        const __mmask8 beyond = _mm512_test_epi64_mask(lanes, _mm512_set1_epi64(~std::int64_t{INT32_MAX}));
+        return (beyond | _mm512_cmplt_epi32_mask(words, least) | _mm512_cmpgt_epi32_mask(words, most)) != 0;
+    }
+    // Whether a 64-bit lane is 2^31 or more, or a word of a no more than b's.
+    static bool any_beyond_or_not_greater(Register lanes, Register a, Register b) {
+        const __mmask8 beyond = _mm512_test_epi64_mask(lanes, _mm512_set1_epi64(~std::int64_t{INT32_MAX}));
+        return (beyond | _mm512_cmple_epi32_mask(a, b)) != 0;
     }
 
     static void leave() { _mm256_zeroupper(); }

@@ -109,6 +109,7 @@ struct LanesNeon {
     static Register greater_32(Register a, Register b) {
         return vreinterpretq_u64_u32(vcgtq_s32(to_32(a), to_32(b)));
     }
+    static Register absolute_32(Register v) { return from_32(vabsq_s32(to_32(v))); }
     static Register minimum_32(Register a, Register b) { return from_32(vminq_s32(to_32(a), to_32(b))); }
     static Register multiply_low_32(Register a, Register b) { return from_32(vmulq_s32(to_32(a), to_32(b))); }
     template <int count>

@@ -81,6 +81,7 @@ struct LanesSse41 {
     static Register subtract_32(Register a, Register b) { return _mm_sub_epi32(a, b); }
     static Register equal_32(Register a, Register b) { return _mm_cmpeq_epi32(a, b); }
     static Register greater_32(Register a, Register b) { return _mm_cmpgt_epi32(a, b); }
+    static Register absolute_32(Register v) { return _mm_abs_epi32(v); }
     static Register minimum_32(Register a, Register b) { return _mm_min_epi32(a, b); }
     static Register multiply_low_32(Register a, Register b) { return _mm_mullo_epi32(a, b); }
     template <int count>

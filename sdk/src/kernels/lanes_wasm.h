@@ -100,6 +100,7 @@ struct LanesWasm {
     static Register subtract_32(Register a, Register b) { return wasm_i32x4_sub(a, b); }
     static Register equal_32(Register a, Register b) { return wasm_i32x4_eq(a, b); }
     static Register greater_32(Register a, Register b) { return wasm_i32x4_gt(a, b); }
+    static Register absolute_32(Register v) { return wasm_i32x4_abs(v); }
     static Register minimum_32(Register a, Register b) { return wasm_i32x4_min(a, b); }
     static Register multiply_low_32(Register a, Register b) { return wasm_i32x4_mul(a, b); }
     template <int count>

@@ -18,7 +18,7 @@ class Octave {
 
 public:
     explicit Octave(int k)
-        : twice_k_(L::set(2 * in_range(k))), align_(2 * in_range(k)),
+        : twice_k_(L::set(2 * in_range(k))), align_(2 * in_range(k)), motion_(in_range(k)),
           lowest_(L::set_32(k == in_range(k) ? 1 << (30 - 2 * k) : INT32_MAX)),
           highest_(L::set_32(
               k == in_range(k) ? static_cast<std::int32_t>((std::int64_t{1} << (32 - 2 * k)) - 1) : -1)) {}
@@ -27,23 +27,46 @@ public:
     LKS_FORCE_INLINE R leaves(R high_u) const {
         return L::bit_or(L::subtract_32(high_u, lowest_), L::subtract_32(highest_, high_u));
     }
+    LKS_FORCE_INLINE R lowest() const { return lowest_; }
+    LKS_FORCE_INLINE R highest() const { return highest_; }
     // u·2^2k, high halves.
     LKS_FORCE_INLINE Numbers<L> align(const Group<L>& u) const { return align_(u); }
+    // |v| ≤ u: v·2^(2k − 2), high halves to the nearest.
+    LKS_FORCE_INLINE Factors<L> align_signed(const Group<L>& v) const {
+        const Group<L> rounded{L::add(v.a, motion_.half), L::add(v.b, motion_.half)};
+        using F = FactorsOf<L>;
+        if constexpr (L::has_signed_shift) {
+            return F::low({L::shift_right_signed(rounded.a, motion_.right),
+                           L::shift_right_signed(rounded.b, motion_.right)});
+        } else if constexpr (L::has_quick_shift) {
+            return F::high({L::shift_left(rounded.a, motion_.left), L::shift_left(rounded.b, motion_.left)});
+        } else {
+            // What this leaves of the sign is shifted out.
+            return align_({L::template shift_right<2>(rounded.a), L::template shift_right<2>(rounded.b)})
+                .factors;
+        }
+    }
     LKS_FORCE_INLINE R twice_k() const { return twice_k_; }
 
 private:
     // Beyond these, nothing is in it: u has a bit in its high half, and is below 2^62.
     static constexpr int in_range(int k) { return k < 1 || k > 15 ? 1 : k; }
 
+    struct SignedAlignment {
+        explicit SignedAlignment(int k)
+            : half(L::set(std::int64_t{1} << (33 - 2 * k))), right(L::make_shift(34 - 2 * k)),
+              left(L::make_shift(2 * k - 2)) {}
+        R half;
+        typename L::Shift right;
+        typename L::Shift left;
+    };
+
     R twice_k_;
     HighShift<L> align_;
+    SignedAlignment motion_;
     R lowest_;
     R highest_;
 };
-
-// Where lanes shift by counts of their own nobody asks for it.
-template <typename L>
-using OctaveOf = std::conditional_t<L::has_shift_each, Needless, Octave<L>>;
 
 // Of a group's squared lengths u.
 template <typename L>
@@ -78,10 +101,10 @@ LKS_SELDOM Aligned<L, n> align_each(const Squares& u) {
             })};
 }
 
-// min(L/len, 2) − 1 in Direction format from L/len times 2^(shift - k).
+// min(L/len, 2) in Direction format from L/len times 2^(shift - k).
 template <typename L>
-LKS_SELDOM Factors<L> relative_error_each(const Group<L>& product, typename L::Register shift,
-                                          const Group<L>& twice_k) {
+LKS_SELDOM Factors<L> limited_ratio_each(const Group<L>& product, typename L::Register shift,
+                                         const Group<L>& twice_k) {
     using R = typename L::Register;
     const auto limited = [&](R wide, R k2) {
         const R ratio = L::shift_right_each(wide, L::subtract(shift, L::template shift_right<1>(k2)));
@@ -93,9 +116,7 @@ LKS_SELDOM Factors<L> relative_error_each(const Group<L>& product, typename L::R
             return L::select_by_sign(ratio, two, L::subtract(two, ratio));
         }
     };
-    using F = FactorsOf<L>;
-    return F::less(F::low({limited(product.a, twice_k.a), limited(product.b, twice_k.b)}),
-                   F::constant(direction_one));
+    return FactorsOf<L>::low({limited(product.a, twice_k.a), limited(product.b, twice_k.b)});
 }
 
 } // namespace

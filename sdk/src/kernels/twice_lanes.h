@@ -87,6 +87,7 @@ struct TwiceLanes {
     static R add_32(R x, R y) { return {L::add_32(x.a, y.a), L::add_32(x.b, y.b)}; }
     static R subtract_32(R x, R y) { return {L::subtract_32(x.a, y.a), L::subtract_32(x.b, y.b)}; }
     static R equal_32(R x, R y) { return {L::equal_32(x.a, y.a), L::equal_32(x.b, y.b)}; }
+    static R absolute_32(R v) { return {L::absolute_32(v.a), L::absolute_32(v.b)}; }
     static R minimum_32(R x, R y) { return {L::minimum_32(x.a, y.a), L::minimum_32(x.b, y.b)}; }
     static R multiply_low_32(R x, R y) {
         return {L::multiply_low_32(x.a, y.a), L::multiply_low_32(x.b, y.b)};
