@@ -36,7 +36,7 @@ float fall_of(const Workload& workload) {
 void demand_right(const FloatRuns& cloth, const FloatKernel& kernel) {
     FloatRuns work = cloth;
     // A little out of place, so that there is something to correct.
-    for (std::uint32_t i = 0; i < work.moving.size(); ++i) {
+    for (std::uint32_t i = 0; i < work.count; ++i) {
         const float jitter = 1e-3f * static_cast<float>(i * 2654435761u >> 24) / 256.0f;
         work.x[i] += jitter;
         work.y[i] -= jitter;
@@ -50,7 +50,7 @@ void demand_right(const FloatRuns& cloth, const FloatKernel& kernel) {
         project_double(cloth, x, y, z);
     }
     double worst = 0;
-    for (std::size_t i = 0; i < work.moving.size(); ++i) {
+    for (std::size_t i = 0; i < work.count; ++i) {
         worst = std::fmax(worst, std::abs(x[i] - static_cast<double>(work.x[i])));
         worst = std::fmax(worst, std::abs(y[i] - static_cast<double>(work.y[i])));
         worst = std::fmax(worst, std::abs(z[i] - static_cast<double>(work.z[i])));
@@ -62,11 +62,24 @@ void demand_right(const FloatRuns& cloth, const FloatKernel& kernel) {
     }
 }
 
+// What each object meets: here all of them stand in one place.
+std::vector<std::vector<FloatSphere>> spheres_of(const Workload& workload) {
+    std::vector<std::vector<FloatSphere>> spheres(workload.objects);
+    for (std::size_t object = 0; workload.colliders && object < spheres.size(); ++object) {
+        for (const Ball& ball : balls) {
+            const int x = ball.x - object_distance * static_cast<int>(object);
+            const auto metres = [](int tenths) { return static_cast<float>(tenths) / 10; };
+            spheres[object].push_back({metres(x), metres(ball.y), metres(ball.z), metres(ball.radius)});
+        }
+    }
+    return spheres;
+}
+
 class Runs final : public Variant {
 public:
     Runs(const Workload& workload, const FloatKernel& kernel)
         : kernel_(kernel), substeps_(workload.substeps), iterations_(workload.iterations),
-          fall_(fall_of(workload)) {
+          fall_(fall_of(workload)), spheres_(spheres_of(workload)) {
         const WorkloadAsset asset(workload);
         const FloatRuns one = make_float_runs(*asset.get(), asset.pinned());
         demand_right(one, kernel);
@@ -84,11 +97,15 @@ public:
         }
     }
     void tick() override {
-        for (FloatRuns& object : objects_) {
+        for (std::size_t i = 0; i < objects_.size(); ++i) {
+            FloatRuns& object = objects_[i];
             for (std::uint32_t substep = 0; substep < substeps_; ++substep) {
                 kernel_.predict(object, fall_);
                 for (std::uint32_t iteration = 0; iteration < iterations_; ++iteration) {
                     kernel_.project(object);
+                }
+                for (const FloatSphere& sphere : spheres_[i]) {
+                    kernel_.push_out(object, sphere);
                 }
             }
         }
@@ -107,13 +124,15 @@ private:
     std::uint32_t substeps_;
     std::uint32_t iterations_;
     float fall_;
+    std::vector<std::vector<FloatSphere>> spheres_;
     std::vector<FloatRuns> objects_;
 };
 
 class Plain final : public Variant {
 public:
     Plain(const Workload& workload, EdgeOrder order)
-        : substeps_(workload.substeps), iterations_(workload.iterations), fall_(fall_of(workload)) {
+        : substeps_(workload.substeps), iterations_(workload.iterations), fall_(fall_of(workload)),
+          spheres_(spheres_of(workload)) {
         const WorkloadAsset asset(workload);
         objects_.assign(workload.objects, make_float_cloth(*asset.get(), asset.pinned(), order));
         for (std::uint32_t i = 0; i < workload.warm_ticks; ++i) {
@@ -129,11 +148,15 @@ public:
         }
     }
     void tick() override {
-        for (FloatCloth& object : objects_) {
+        for (std::size_t i = 0; i < objects_.size(); ++i) {
+            FloatCloth& object = objects_[i];
             for (std::uint32_t substep = 0; substep < substeps_; ++substep) {
                 predict_float(object, fall_);
                 for (std::uint32_t iteration = 0; iteration < iterations_; ++iteration) {
                     project_float(object);
+                }
+                for (const FloatSphere& sphere : spheres_[i]) {
+                    push_out_float(object, sphere);
                 }
             }
         }
@@ -150,6 +173,7 @@ private:
     std::uint32_t substeps_;
     std::uint32_t iterations_;
     float fall_;
+    std::vector<std::vector<FloatSphere>> spheres_;
     std::vector<FloatCloth> objects_;
 };
 

@@ -48,6 +48,8 @@ FloatRuns make_float_runs(const lks_asset& asset, const std::vector<std::uint32_
          {&cloth.x, &cloth.y, &cloth.z, &cloth.rests, &cloth.shares_a, &cloth.shares_b}) {
         values->resize(values->size() + padding, 1.0f);
     }
+    cloth.moving.resize(cloth.moving.size() + padding, 0.0f);
+    cloth.count = asset.vertex_count();
     cloth.start_x = cloth.x;
     cloth.start_y = cloth.y;
     cloth.start_z = cloth.z;
@@ -83,8 +85,23 @@ void project_scalar(FloatRuns& cloth) {
     }
 }
 
+void push_out_scalar(FloatRuns& cloth, const FloatSphere& sphere) {
+    for (std::uint32_t i = 0; i < cloth.count; ++i) {
+        const float x = cloth.x[i] - sphere.x;
+        const float y = cloth.y[i] - sphere.y;
+        const float z = cloth.z[i] - sphere.z;
+        const float square = x * x + y * y + z * z;
+        if (square < sphere.radius * sphere.radius && square > 0) {
+            const float factor = cloth.moving[i] * (sphere.radius / __builtin_sqrtf(square) - 1);
+            cloth.x[i] += x * factor;
+            cloth.y[i] += y * factor;
+            cloth.z[i] += z * factor;
+        }
+    }
+}
+
 } // namespace
 
-const FloatKernel float_runs_scalar = {"float32 runs, scalar", project_scalar, predict_all};
+const FloatKernel float_runs_scalar = {"float32 runs, scalar", project_scalar, predict_all, push_out_scalar};
 
 } // namespace lks_bench

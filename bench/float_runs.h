@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asset/asset.h"
+#include "plain_float.h"
 
 namespace lks_bench {
 
@@ -18,7 +19,8 @@ struct FloatBatch {
 struct FloatRuns {
     std::vector<float> x, y, z; // by particle, in the solver's order, with room behind
     std::vector<float> start_x, start_y, start_z;
-    std::vector<float> moving; // 1, or 0 for what is pinned
+    std::vector<float> moving; // 1, or 0 for what is pinned and for the room behind
+    std::uint32_t count = 0;
     std::vector<std::uint32_t> vertices;
     std::vector<lks::Constraint> constraints;
     std::vector<float> rests;
@@ -29,11 +31,12 @@ struct FloatRuns {
 FloatRuns make_float_runs(const lks_asset& asset, const std::vector<std::uint32_t>& pinned);
 
 // `project` is one pass over all constraints, no compliance, L/len clamped to 2; `predict` is x += v + g·h²,
-// what a substep begins with, `fall` being g·h² on y.
+// what a substep begins with, `fall` being g·h² on y; `push_out` is what ends it over a sphere.
 struct FloatKernel {
     const char* name;
     void (*project)(FloatRuns& cloth);
     void (*predict)(FloatRuns& cloth, float fall);
+    void (*push_out)(FloatRuns& cloth, const FloatSphere& sphere);
 };
 
 extern const FloatKernel float_runs_scalar;

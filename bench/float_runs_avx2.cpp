@@ -27,7 +27,8 @@ struct Avx2 {
 
 } // namespace
 
-const FloatKernel float_runs_avx2 = {"float32 runs, AVX2", project_all<Avx2>, predict_all};
+const FloatKernel float_runs_avx2 = {"float32 runs, AVX2", project_all<Avx2>, predict_all,
+                                     push_out_all<Avx2>};
 
 } // namespace lks_bench
 #endif

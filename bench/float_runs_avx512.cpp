@@ -30,7 +30,8 @@ struct Avx512 {
 
 } // namespace
 
-const FloatKernel float_runs_avx512 = {"float32 runs, AVX-512", project_all<Avx512>, predict_all};
+const FloatKernel float_runs_avx512 = {"float32 runs, AVX-512", project_all<Avx512>, predict_all,
+                                       push_out_all<Avx512>};
 
 } // namespace lks_bench
 #endif

@@ -101,10 +101,36 @@ inline void predict_axis(float* x, float* start, const float* moving, std::size_
 }
 
 inline void predict_all(FloatRuns& cloth, float fall) {
-    const std::size_t count = cloth.moving.size();
+    const std::size_t count = cloth.count;
     predict_axis(cloth.x.data(), cloth.start_x.data(), cloth.moving.data(), count, 0);
     predict_axis(cloth.y.data(), cloth.start_y.data(), cloth.moving.data(), count, fall);
     predict_axis(cloth.z.data(), cloth.start_z.data(), cloth.moving.data(), count, 0);
+}
+
+template <typename V>
+inline void push_out_all(FloatRuns& cloth, const FloatSphere& sphere) {
+    using R = typename V::Register;
+    for (std::uint32_t i = 0; i < cloth.count; i += V::width) {
+        float* const px = cloth.x.data() + i;
+        float* const py = cloth.y.data() + i;
+        float* const pz = cloth.z.data() + i;
+        const R x0 = V::load(px), y0 = V::load(py), z0 = V::load(pz);
+        const R x = V::subtract(x0, V::set(sphere.x));
+        const R y = V::subtract(y0, V::set(sphere.y));
+        const R z = V::subtract(z0, V::set(sphere.z));
+        const R u = V::multiply_add(x, x, V::multiply_add(y, y, V::multiply(z, z)));
+        const R estimate = V::reciprocal_sqrt_estimate(u);
+        const R half_u = V::multiply(u, V::set(-0.5f));
+        const R inverse =
+            V::multiply(estimate, V::multiply_add(V::multiply(half_u, estimate), estimate, V::set(1.5f)));
+        // Outside the ratio is below one.
+        const R ratio = V::multiply(V::set(-sphere.radius), inverse);
+        const R inside = V::multiply(V::least(V::add(ratio, V::set(1.0f)), V::set(0.0f)),
+                                     V::load(cloth.moving.data() + i));
+        V::store(px, V::subtract(x0, V::multiply(x, inside)));
+        V::store(py, V::subtract(y0, V::multiply(y, inside)));
+        V::store(pz, V::subtract(z0, V::multiply(z, inside)));
+    }
 }
 
 } // namespace

@@ -58,7 +58,9 @@ void add_all() {
                 add(workload, name, "projections", &Variant::project);
                 add(workload, name, "tick", &Variant::tick);
             }
-            add(workload, two_workers_name(), "tick", &Variant::tick);
+            for (const std::string& name : our_names()) {
+                add(workload, with_two_workers(name), "tick", &Variant::tick);
+            }
         }
     }
 }

@@ -55,6 +55,21 @@ void project_float(FloatCloth& cloth) {
     }
 }
 
+void push_out_float(FloatCloth& cloth, const FloatSphere& sphere) {
+    for (FloatParticle& particle : cloth.particles) {
+        const float x = particle.x - sphere.x;
+        const float y = particle.y - sphere.y;
+        const float z = particle.z - sphere.z;
+        const float square = x * x + y * y + z * z;
+        if (particle.inverse_mass > 0 && square < sphere.radius * sphere.radius && square > 0) {
+            const float factor = sphere.radius / std::sqrt(square) - 1;
+            particle.x += x * factor;
+            particle.y += y * factor;
+            particle.z += z * factor;
+        }
+    }
+}
+
 void predict_float(FloatCloth& cloth, float fall) {
     for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
         FloatParticle& now = cloth.particles[i];

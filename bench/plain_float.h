@@ -18,6 +18,11 @@ struct FloatEdge {
     float rest;
 };
 
+struct FloatSphere {
+    float x, y, z;
+    float radius;
+};
+
 struct FloatCloth {
     std::vector<FloatParticle> particles; // by vertex
     std::vector<FloatParticle> starts;    // where they were at the start of the substep
@@ -32,6 +37,8 @@ FloatCloth make_float_cloth(const lks_asset& asset, const std::vector<std::uint3
 
 // One pass over all edges, no compliance.
 void project_float(FloatCloth& cloth);
+// Out of the sphere, without friction.
+void push_out_float(FloatCloth& cloth, const FloatSphere& sphere);
 // x += v + g·h²: what a substep begins with. `fall` is g·h² on y.
 void predict_float(FloatCloth& cloth, float fall);
 

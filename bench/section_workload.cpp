@@ -24,11 +24,14 @@ void measure_threads(const Workload& workload, double units, int rounds, Results
                          },
                          units * in_a_row};
     };
-    const std::unique_ptr<Variant> one = make_variant(workload, best_name());
-    const std::unique_ptr<Variant> two = make_variant(workload, two_workers_name());
-    for (const Measurement& m :
-         measure_in_turns({ticks(*one, best_name()), ticks(*two, two_workers_name())}, rounds)) {
-        results.push_back({workload.name, "threads", m.name, m.nanoseconds, "ns a projection", m.ratio});
+    for (const std::string& one_worker : our_names()) {
+        const std::string two_workers = with_two_workers(one_worker);
+        const std::unique_ptr<Variant> one = make_variant(workload, one_worker);
+        const std::unique_ptr<Variant> two = make_variant(workload, two_workers);
+        for (const Measurement& m :
+             measure_in_turns({ticks(*one, one_worker), ticks(*two, two_workers)}, rounds)) {
+            results.push_back({workload.name, "threads", m.name, m.nanoseconds, "ns a projection", m.ratio});
+        }
     }
 }
 

@@ -50,38 +50,39 @@ std::vector<lks_simd> available_levels() {
 } // namespace
 
 std::vector<std::string> variant_names(const Workload& workload) {
-    std::vector<std::string> names;
-    for (const lks_simd level : available_levels()) {
-        names.emplace_back(lks_simd_name(level));
+    std::vector<std::string> names = our_names();
+    // The peers know neither compliance nor damping.
+    if (workload.compliance != 0) {
+        return names;
     }
-    // The peers know neither compliance nor damping nor our colliders.
-    if (workload.compliance == 0 && !workload.colliders) {
-        for (const std::string& name : float_peer_names()) {
-            names.push_back(name);
-        }
-        if (has_bullet()) {
-            names.emplace_back(bullet_name);
-        }
+    for (const std::string& name : float_peer_names()) {
+        names.push_back(name);
+    }
+    // Bullet's soft bodies meet colliders through a collision world of rigid bodies, with margins of its own.
+    if (has_bullet() && !workload.colliders) {
+        names.emplace_back(bullet_name);
     }
     return names;
 }
 
-std::string best_name() {
-    return lks_simd_name(available_levels().back());
+std::vector<std::string> our_names() {
+    std::vector<std::string> names;
+    for (const lks_simd level : available_levels()) {
+        names.emplace_back(lks_simd_name(level));
+    }
+    return names;
 }
 
-std::string two_workers_name() {
-    return best_name() + ", 2 workers";
+std::string with_two_workers(const std::string& name) {
+    return name + ", 2 workers";
 }
 
 std::unique_ptr<Variant> make_variant(const Workload& workload, const std::string& name) {
     for (const lks_simd level : available_levels()) {
-        if (name == lks_simd_name(level)) {
-            return std::make_unique<Ours>(workload, level, 1);
+        const std::string ours = lks_simd_name(level);
+        if (name == ours || name == with_two_workers(ours)) {
+            return std::make_unique<Ours>(workload, level, name == ours ? 1 : 2);
         }
-    }
-    if (name == two_workers_name()) {
-        return std::make_unique<Ours>(workload, available_levels().back(), 2);
     }
     return name == bullet_name ? make_bullet_peer(workload) : make_float_peer(workload, name);
 }

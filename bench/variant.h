@@ -31,9 +31,10 @@ public:
 // The names of all that can solve this workload on this machine, ours first, then float32 with the same care,
 // plain float32, and packages. The first one is plain integers.
 std::vector<std::string> variant_names(const Workload& workload);
-// The best of ours, and the same with two workers: for whole ticks only.
-std::string best_name();
-std::string two_workers_name();
+// Those of them that are ours.
+std::vector<std::string> our_names();
+// The same of ours with two workers: for whole ticks only.
+std::string with_two_workers(const std::string& name);
 
 // Of a name out of the above. Exits with a sentence if a peer does not come to what double precision comes
 // to: it must not be fast by being wrong.

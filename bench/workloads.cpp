@@ -16,53 +16,70 @@ void demand(lks_result result, const char* what, const char* message) {
 }
 
 void add_colliders(lks_world* world) {
-    for (int i = 0; i < 2; ++i) {
+    const auto tenths = [](int count) { return LKS_FIXED_RATIO(count, 10); };
+    for (const Ball& ball : balls) {
         lks_collider_def def = lks_default_collider_def();
-        def.radius = LKS_FIXED_RATIO(4, 10);
-        def.transform.position = {i * LKS_FIXED(1), LKS_FIXED(-1), LKS_FIXED_RATIO(1, 2)};
+        def.radius = tenths(ball.radius);
+        def.transform.position = {tenths(ball.x), tenths(ball.y), tenths(ball.z)};
         lks_collider_id id{};
         demand(lks_world_add_collider(world, &def, &id), "a collider", lks_world_last_error(world)->message);
     }
 }
 
-} // namespace
+// And with as many passes in fewer substeps, and over colliders.
+void add_with_variations(const Workload& workload, std::vector<Workload>& all) {
+    all.push_back(workload);
+    for (const std::uint32_t substeps : {1u, 5u}) {
+        Workload& fewer = all.emplace_back(workload);
+        fewer.substeps = substeps;
+        fewer.iterations = 20 / substeps;
+        const std::string count = std::to_string(fewer.substeps);
+        const std::string iterations = std::to_string(fewer.iterations);
+        fewer.name += "_" + count + "x" + iterations;
+        fewer.title += ", " + count + " × " + iterations;
+    }
+    Workload& over = all.emplace_back(workload);
+    over.name += "_colliders";
+    over.title += " over two spheres";
+    over.colliders = true;
+}
 
-const std::vector<Workload>& workloads() {
-    static const std::vector<Workload> all = {
-        {.name = "cloth_64", .title = "64 × 64 vertices, 20 × 1"},
-        {.name = "cloth_64_1x20", .title = "64 × 64 vertices, 1 × 20", .substeps = 1, .iterations = 20},
-        {.name = "cloth_64_5x4", .title = "64 × 64 vertices, 5 × 4", .substeps = 5, .iterations = 4},
+std::vector<Workload> make_workloads() {
+    std::vector<Workload> all;
+    add_with_variations({.name = "cloth_64", .title = "64 × 64 vertices"}, all);
+    const std::vector<Workload> special = {
         {.name = "cloth_64_soft", .title = "64 × 64 vertices, 1e-5 m/N", .compliance = 1e-5},
         {.name = "cloth_64_damped",
          .title = "64 × 64 vertices, 1e-5 m/N, 10 N·s/m",
          .compliance = 1e-5,
          .damping = 10},
-        {.name = "cloth_64_colliders", .title = "64 × 64 vertices over two spheres", .colliders = true},
         {.name = "cloth_50", .title = "50 × 50 vertices, no multiple of four", .side = 50},
+    };
+    all.insert(all.end(), special.begin(), special.end());
+    const Workload others[] = {
         {.name = "cloth_256", .title = "256 × 256 vertices", .side = 256},
         {.name = "mesh_10k", .title = "irregular mesh of 10,082 triangles", .shape = Shape::mesh, .side = 72},
-        {.name = "mesh_10k_colliders",
-         .title = "irregular mesh of 10,082 triangles over two spheres",
-         .shape = Shape::mesh,
-         .side = 72,
-         .colliders = true},
         {.name = "ropes_200",
          .title = "200 ropes of 100 particles",
          .shape = Shape::rope,
          .objects = 200,
          .side = 100},
-        {.name = "ropes_200_colliders",
-         .title = "200 ropes of 100 particles over two spheres",
-         .shape = Shape::rope,
-         .objects = 200,
-         .side = 100,
-         .colliders = true},
         {.name = "ropes_1000",
          .title = "1,000 ropes of 20 particles",
          .shape = Shape::rope,
          .objects = 1000,
          .side = 20},
     };
+    for (const Workload& workload : others) {
+        add_with_variations(workload, all);
+    }
+    return all;
+}
+
+} // namespace
+
+const std::vector<Workload>& workloads() {
+    static const std::vector<Workload> all = make_workloads();
     return all;
 }
 
@@ -157,7 +174,7 @@ BenchWorld::BenchWorld(const Workload& workload, lks_simd simd, std::uint32_t wo
     for (std::uint32_t i = 0; i < workload.objects; ++i) {
         lks_object_def object_def = lks_default_object_def();
         object_def.asset = asset_.get();
-        object_def.transform.position.x = static_cast<lks_fixed>(i) * LKS_FIXED_RATIO(1, 10);
+        object_def.transform.position.x = static_cast<lks_fixed>(i) * LKS_FIXED_RATIO(object_distance, 10);
         lks_object_id object{};
         demand(lks_world_add_object(world_, &object_def, &object), "an object",
                lks_world_last_error(world_)->message);

@@ -26,6 +26,14 @@ struct Workload {
     std::uint32_t warm_ticks = 20; // before anything is measured, so that it hangs and swings
 };
 
+// What workloads with colliders fall on, in tenths of a metre.
+struct Ball {
+    int x, y, z, radius;
+};
+inline constexpr Ball balls[] = {{0, -10, 5, 4}, {10, -10, 5, 4}};
+// From one object to the next, the same along x.
+inline constexpr int object_distance = 1;
+
 // Cloths from 1,000 to 1,000,000 constraints, for growth, come after those that are measured by default.
 const std::vector<Workload>& workloads();
 const std::vector<Workload>& growth_workloads();
