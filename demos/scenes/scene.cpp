@@ -17,6 +17,7 @@ bool Scene::create(const SceneOptions& options, std::string& error) {
     configure(def);
     def.simd = static_cast<std::uint32_t>(options.simd);
     def.worker_count = options.worker_count;
+    def.tasks = options.tasks;
     def.tick_rate_hz = options.tick_rate_hz != 0 ? options.tick_rate_hz : def.tick_rate_hz;
     def.substeps = options.substeps != 0 ? options.substeps : def.substeps;
     def.iterations = options.iterations != 0 ? options.iterations : def.iterations;

@@ -38,6 +38,7 @@ struct SceneOptions {
     std::uint32_t max_ticks_per_advance = 0;
     lks_simd simd = LKS_SIMD_AUTO;
     std::uint32_t worker_count = 1;
+    lks_task_system tasks{};   // null functions: threads of the world's own
     lks_allocator allocator{}; // of the world and its assets
     lks_log log{};
 };

@@ -35,6 +35,18 @@ constraints = {"cloth_64": 23938, "cloth_50": 14502, "mesh_10k": 29642, "ropes_2
 for name, count in constraints.items():
     if value(measure(name), "constraints", "") != count:
         sys.exit(f"{name} has not {count} constraints.")
+listed = run(program, "bench", "--list").stdout.split()
+for base in "cloth_64", "cloth_256", "mesh_10k", "ropes_200", "ropes_1000":
+    for name in base, base + "_1x20", base + "_5x4", base + "_colliders":
+        if name not in listed:
+            sys.exit(f"{name} is not among the workloads.")
+over = measure("ropes_1000_colliders")
+for variant in "scalar", "float32 runs, scalar", "float32 plain, coloured":
+    value(over, "tick", variant)
+for variant in "scalar", "scalar, 2 workers":
+    value(over, "threads", variant)
+for measured in "save", "load", "hash", "memcpy":
+    value(measure("snapshots"), measured, "scalar")
 cloth = measure("cloth_50")
 for measured in "projection", "tick":
     for variant in "scalar", "float32 runs, scalar", "float32 plain, by index":

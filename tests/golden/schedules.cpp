@@ -1,0 +1,57 @@
+// The golden scenes on one to eight threads, with helpers that begin after naps of random length: what a tick
+// is made of goes to whoever comes first, and the states are the golden ones all the same.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "golden/recorder.h"
+#include "scenes/scene.h"
+#include "support/task_system.h"
+
+using namespace support;
+
+namespace {
+
+std::string golden_text(const std::string& scene) {
+    std::ifstream file(std::string(LOCKSTITCH_GOLDEN_FOLDER) + "/states/" + scene + ".txt", std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+lks_golden::GoldenState run(const std::string& name, const lks_demo::SceneOptions& options) {
+    std::string error;
+    const std::unique_ptr<lks_demo::Scene> scene = lks_demo::create_scene(name, options, error);
+    REQUIRE_MESSAGE(scene != nullptr, error);
+    lks_golden::Recorder recorder(*scene);
+    for (std::uint32_t tick = 0; tick < scene->info().golden_ticks; ++tick) {
+        REQUIRE_MESSAGE(scene->step(error), error);
+        recorder.record_tick();
+    }
+    recorder.record_points();
+    return recorder.state();
+}
+
+} // namespace
+
+TEST_CASE("golden states come out of one to eight threads, however late they are") {
+    std::uint64_t tasks = 0;
+    for (std::uint32_t workers = 1; workers <= 8; ++workers) {
+        for (const std::string& name : lks_demo::scene_names()) {
+            TaskSystem system(Temper::threads, 100 + workers);
+            lks_demo::SceneOptions options;
+            options.worker_count = workers;
+            options.tasks = system.interface();
+            const std::vector<std::string> different =
+                lks_golden::differences(golden_text(name), run(name, options));
+            INFO(name, " on ", workers);
+            CHECK_MESSAGE(different.empty(), different.front());
+            CHECK(system.all_awaited());
+            tasks += system.tasks();
+        }
+    }
+    CHECK(tasks > 10'000);
+}
