@@ -19,8 +19,8 @@ extern "C" {
 typedef struct lks_bone {
     uint32_t parent;     /* an earlier bone, or LKS_NO_PARENT for the first one, the root */
     uint32_t joint_kind; /* an lks_joint_kind: ball, hinge or fixed; of the root none */
-    /* Shapes, mass, surface. Its transform is the bone's in the ragdoll's frame, in the rest pose; velocities
-     * and the filter's group are ignored. */
+    /* Shapes, mass, surface, filter. Its transform is the bone's in the ragdoll's frame, in the rest pose;
+     * velocities are ignored. */
     lks_body_def body;
     lks_transform joint_frame;  /* in the ragdoll's frame, in the rest pose; its axis is local y */
     lks_fixed swing_limit;      /* degrees, 0 .. 180; these three as in lks_joint_def */
@@ -39,8 +39,8 @@ typedef struct lks_ragdoll_def {
     lks_transform transform; /* of the ragdoll's frame in the world */
     lks_vec3 velocity;       /* of all bones, m/s, each axis within the speed limit */
     lks_fixed scale;         /* of all lengths, 0.05 .. 20; masses go with its cube */
-    int32_t group;     /* of all bones' filters; 0: as the bones say. Less than zero: bones don't collide
-                          with each other at all, and otherwise all but neighbours do */
+    int32_t group;     /* of all bones' filters; 0: each bone's own. Less than zero: bones don't collide with
+                          each other at all, and otherwise all but neighbours do */
     uint32_t reserved; /* 0 */
 } lks_ragdoll_def;
 

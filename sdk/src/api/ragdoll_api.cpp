@@ -57,7 +57,9 @@ lks_body_def make_body_def(const lks_ragdoll_def& def, const lks_bone& bone, con
     body.transform = placement.place(bone.body.transform);
     body.velocity = def.velocity;
     body.angular_velocity = {0, 0, 0};
-    body.filter.group = def.group;
+    if (def.group != 0) {
+        body.filter.group = def.group;
+    }
     return body;
 }
 
