@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <utility>
 
 #include "support/bodies.h"
 #include "support/refusals.h"
@@ -203,6 +204,21 @@ TEST_CASE("ragdolls with trees that are none are refused whole") {
     check([](Humanoid& h) { h.bones[4].parent = LKS_NO_PARENT; }, "bone 4");
     check([](Humanoid& h) { h.bones[4].joint_kind = LKS_JOINT_DISTANCE; }, "kind 3");
     check([](Humanoid& h) { h.bones[14].twist_min = fixed(90); }, "twist_min 90");
+    check([](Humanoid& h) { h.bones[5].swing_limit_z = fixed(181); }, "swing_limit_z 181");
+    check([](Humanoid& h) { h.bones[5].compliance = fixed(-1); }, "compliance -1");
+    check([](Humanoid& h) { h.bones[5].damping = fixed(-2); }, "damping -2");
+    check([](Humanoid& h) { h.bones[5].angular_compliance = fixed(1001); }, "angular_compliance 1001");
+    check([](Humanoid& h) { h.bones[5].angular_damping = fixed(-3); }, "angular_damping -3");
+    check([](Humanoid& h) { h.bones[5].break_force = fixed(-4); }, "break_force -4");
+    check([](Humanoid& h) { h.bones[5].break_force = fixed(8000001); }, "break_force 8000001");
+    check([](Humanoid& h) { h.bones[5].break_torque = fixed(-5); }, "break_torque -5");
+    check([](Humanoid& h) { h.bones[5].motor_torque = fixed(-6); }, "motor_torque -6");
+    check(
+        [](Humanoid& h) {
+            h.def.scale = fixed(20);
+            h.bones[5].joint_frame.position.x = fixed(5); // 95 m from the bone
+        },
+        "64");
     check([](Humanoid& h) { h.shapes[7].radius = 0; }, "radius 0");
     check([](Humanoid& h) { h.bones[7].body.shapes = nullptr; }, "null", LKS_ERROR_NULL_ARGUMENT);
     check([](Humanoid& h) { h.def.bone_count = 0; }, "0 bones");
@@ -211,6 +227,24 @@ TEST_CASE("ragdolls with trees that are none are refused whole") {
     check([](Humanoid& h) { h.def.scale = fixed(25); }, "25");
     check([](Humanoid& h) { h.def.transform.rotation.w = 1; }, "quaternion");
     check([](Humanoid& h) { h.def.struct_size = 3; }, "3", LKS_ERROR_STRUCT_SIZE);
+}
+
+TEST_CASE("what bones bear at a scale stays within what joints can be given, and never becomes everything") {
+    for (const auto& [scale, strength] : {std::pair{20.0, 8000000.0}, {0.05, 1e-9}}) {
+        World world(world_def(60, 8));
+        Humanoid humanoid;
+        humanoid.def.scale = fixed(scale);
+        for (lks_bone& bone : humanoid.bones) {
+            bone.break_force = bone.break_torque = fixed(strength);
+        }
+        lks_body_id bodies[LKS_HUMANOID_BONES];
+        const lks_result added = humanoid.add(world, bodies);
+        INFO("scale " << scale << ": " << world.message());
+        REQUIRE(added == LKS_OK);
+        REQUIRE(lks_body_set_kind(world, bodies[LKS_HUMANOID_PELVIS], LKS_BODY_KINEMATIC) == LKS_OK);
+        world.step(2);
+        CHECK(lks_world_joint_count(world) == (scale > 1 ? LKS_HUMANOID_BONES - 1 : 0));
+    }
 }
 
 TEST_CASE("what is hard but allowed ends where it can") {

@@ -22,14 +22,24 @@ typedef struct lks_bone {
     /* Shapes, mass, surface, filter. Its transform is the bone's in the ragdoll's frame, in the rest pose;
      * velocities are ignored. */
     lks_body_def body;
-    lks_transform joint_frame;  /* in the ragdoll's frame, in the rest pose; its axis is local y */
-    lks_fixed swing_limit;      /* degrees, 0 .. 180; these three as in lks_joint_def */
-    lks_fixed twist_min;        /* degrees, -180 .. twist_max */
-    lks_fixed twist_max;        /* degrees, twist_min .. 180 */
-    lks_fixed friction;         /* N·m of the joint, 0 .. 1000000 */
-    lks_fixed limit_compliance; /* rad/(N·m) and N·m·s, as in lks_joint_def, whatever the scale */
-    lks_fixed limit_damping;
-    lks_fixed motor_torque; /* N·m at scale 1, 0 .. 1000000: what lks_ragdoll_drive turns it with */
+    lks_transform joint_frame; /* in the ragdoll's frame, in the rest pose; its axis is local y */
+    /* Of the joint, with the units and ranges of lks_joint_def, whatever the scale. */
+    lks_fixed swing_limit;   /* degrees; 180: none */
+    lks_fixed swing_limit_z; /* degrees; negative: as swing_limit */
+    lks_fixed twist_min;     /* degrees */
+    lks_fixed twist_max;
+    lks_fixed compliance;         /* of the points, m/N */
+    lks_fixed damping;            /* of soft points, N·s/m */
+    lks_fixed angular_compliance; /* of what hinges and fixed joints hold, rad/(N·m) */
+    lks_fixed angular_damping;    /* N·m·s */
+    lks_fixed limit_compliance;   /* rad/(N·m) */
+    lks_fixed limit_damping;      /* N·m·s */
+    lks_fixed friction;           /* N·m */
+    /* At scale 1. Forces go with the cube of the scale, as weights do, and torques with its fourth power: a
+     * figure of any size bears as many times its own weight. */
+    lks_fixed break_force;  /* N, 0 .. 8000000: where it bears more the bone comes off; 0: never */
+    lks_fixed break_torque; /* N·m, 0 .. 8000000; 0: never */
+    lks_fixed motor_torque; /* N·m, 0 .. 1000000: what lks_ragdoll_drive turns it with */
 } lks_bone;
 
 typedef struct lks_ragdoll_def {
@@ -44,13 +54,16 @@ typedef struct lks_ragdoll_def {
     uint32_t reserved; /* 0 */
 } lks_ragdoll_def;
 
-/* A root without shapes at the origin, lks_default_body_def for its body, no limits, friction or muscles. */
+/* A root without shapes at the origin, lks_default_body_def for its body, no limits, friction or muscles,
+ * rigid, unbreakable. */
 LKS_API lks_bone lks_default_bone(void);
 /* No bones yet, at the origin, at rest, scale 1, group 0. */
 LKS_API lks_ragdoll_def lks_default_ragdoll_def(void);
 
 /* Adds a body for each bone, and a joint from each bone but the root to its parent (body a). `bodies` has
- * room for bone_count ids, `joints` for bone_count - 1 (null: not wanted). All or nothing. */
+ * room for bone_count ids, `joints` for bone_count - 1 (null: not wanted). All or nothing. A joint that
+ * breaks is told by LKS_EVENT_JOINT_BROKE (lockstitch/event.h); what hung on it falls off, and collides with
+ * what it was joined to. */
 LKS_API lks_result lks_world_add_ragdoll(lks_world* world, const lks_ragdoll_def* def, lks_body_id* bodies,
                                          lks_joint_id* joints);
 
@@ -72,8 +85,8 @@ LKS_API lks_result lks_ragdoll_set_kind(lks_world* world, const lks_body_id* bod
                                         uint32_t kind);
 /* Powered: the motors of all joints turn the bones against each other as the pose has them (where it is in
  * the world does not matter), with `strength` (0 .. 100) times their bones' motor_torque, which goes with the
- * fourth power of the scale; 0: limp. `joints` and `pose` are those of lks_world_add_ragdoll. Fixed joints
- * have no motors. */
+ * fourth power of the scale; 0: limp. `joints` and `pose` are those of lks_world_add_ragdoll; joints of
+ * generation 0, such as a game sets it to where one broke, are left out. Fixed joints have no motors. */
 LKS_API lks_result lks_ragdoll_drive(lks_world* world, const lks_ragdoll_def* def, const lks_joint_id* joints,
                                      const lks_transform* pose, lks_fixed strength, lks_fixed response);
 

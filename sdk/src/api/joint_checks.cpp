@@ -63,21 +63,28 @@ lks_result check_joint_ranges(const lks_world& world, const lks_joint_def& def) 
         {"limit_compliance", " rad/(N·m)", def.limit_compliance, 0, LKS_FIXED(1000)},
         {"limit_damping", " N·m·s", def.limit_damping, 0, LKS_FIXED(1000000)},
         {"joint's friction", " N·m", def.friction, 0, LKS_FIXED(1000000)},
-        {"break_force", " N", def.break_force, 0, LKS_FIXED(8000000)},
-        {"break_torque", " N·m", def.break_torque, 0, LKS_FIXED(8000000)},
+        {"break_force", " N", def.break_force, 0, greatest_break_strength},
+        {"break_torque", " N·m", def.break_torque, 0, greatest_break_strength},
     };
     return check_numbers(world, numbers);
+}
+
+lks_result check_joint_points(const lks_world& world, const lks_joint_def& def) {
+    for (const lks_transform& frame : {def.frame_a, def.frame_b}) {
+        if (!within(frame.position, greatest_length)) {
+            return world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                              out_of_range("joint's point", frame.position, "m", greatest_length));
+        }
+    }
+    return LKS_OK;
 }
 
 lks_result check_joint_def(const lks_world& world, const lks_joint_def& def) {
     if (const lks_result result = check_joint_ranges(world, def); result != LKS_OK) {
         return result;
     }
-    for (const lks_transform& frame : {def.frame_a, def.frame_b}) {
-        if (!within(frame.position, greatest_length)) {
-            return world.fail(LKS_ERROR_INVALID_ARGUMENT,
-                              out_of_range("joint's point", frame.position, "m", greatest_length));
-        }
+    if (const lks_result result = check_joint_points(world, def); result != LKS_OK) {
+        return result;
     }
     return check_bodies(world, def);
 }

@@ -77,6 +77,11 @@ lks_fixed scaled_torque(const lks_bone& bone, const lks_ragdoll_def& def, lks_fi
     return std::min(torque, LKS_FIXED(1000000));
 }
 
+// False: the game says that it has broken.
+bool is_there(lks_joint_id joint) {
+    return joint.generation != 0;
+}
+
 lks_result check_drive(const lks_world& world, const lks_ragdoll_def& def, const lks_joint_id* joints,
                        const lks_transform* pose, lks_fixed strength, lks_fixed response) {
     const Number numbers[] = {{"drive's strength", "", strength, 0, LKS_FIXED(100)},
@@ -88,7 +93,9 @@ lks_result check_drive(const lks_world& world, const lks_ragdoll_def& def, const
         return result;
     }
     for (std::uint32_t i = 1; i < def.bone_count; ++i) {
-        if (const lks_result result = require_joint(&world, joints[i - 1]); result != LKS_OK) {
+        const lks_joint_id joint = joints[i - 1];
+        if (const lks_result result = is_there(joint) ? require_joint(&world, joint) : LKS_OK;
+            result != LKS_OK) {
             return result;
         }
     }
@@ -175,6 +182,9 @@ lks_result lks_ragdoll_drive(lks_world* world, const lks_ragdoll_def* def, const
         return result;
     }
     for (std::uint32_t i = 1; i < def->bone_count; ++i) {
+        if (!is_there(joints[i - 1])) {
+            continue;
+        }
         const JointDescription& d = world->rigid.joints[joints[i - 1].index].description;
         if (d.kind == LKS_JOINT_BALL || d.kind == LKS_JOINT_HINGE) {
             lks_motor motor{};

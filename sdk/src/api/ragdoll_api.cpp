@@ -1,6 +1,8 @@
 // lockstitch/ragdoll.h.
 #include <lockstitch/ragdoll.h>
 
+#include <algorithm>
+
 #include "api/body_checks.h"
 #include "api/joint_checks.h"
 #include "api/ragdoll_checks.h"
@@ -73,19 +75,37 @@ lks_transform relative(const lks_transform& body, const lks_transform& world) {
     return {from_vec3(p), {r.x, r.y, r.z, r.w}};
 }
 
-lks_joint_def make_joint_def(const lks_bone& bone, const Placement& placement, const lks_transform& parent,
-                             const lks_transform& child) {
+// What a joint of a scaled figure bears: never nothing, which would be everything.
+lks_fixed scaled_strength(lks_fixed strength, lks_fixed scale, int power) {
+    if (strength == 0) {
+        return 0;
+    }
+    for (int i = 0; i < power; ++i) {
+        strength = scaled(strength, scale);
+    }
+    return std::clamp<lks_fixed>(strength, 1, greatest_break_strength);
+}
+
+// Of a bone that has a parent, without its bodies.
+lks_joint_def make_joint_def(const lks_ragdoll_def& def, const lks_bone& bone, const Placement& placement) {
     lks_joint_def joint = lks_default_joint_def();
     joint.kind = bone.joint_kind;
     const lks_transform frame = placement.place(bone.joint_frame);
-    joint.frame_a = relative(parent, frame);
-    joint.frame_b = relative(child, frame);
+    joint.frame_a = relative(placement.place(def.bones[bone.parent].body.transform), frame);
+    joint.frame_b = relative(placement.place(bone.body.transform), frame);
     joint.swing_limit = bone.swing_limit;
+    joint.swing_limit_z = bone.swing_limit_z;
     joint.twist_min = bone.twist_min;
     joint.twist_max = bone.twist_max;
+    joint.compliance = bone.compliance;
+    joint.damping = bone.damping;
+    joint.angular_compliance = bone.angular_compliance;
+    joint.angular_damping = bone.angular_damping;
     joint.limit_compliance = bone.limit_compliance;
     joint.limit_damping = bone.limit_damping;
     joint.friction = bone.friction;
+    joint.break_force = scaled_strength(bone.break_force, def.scale, 3);
+    joint.break_torque = scaled_strength(bone.break_torque, def.scale, 4);
     return joint;
 }
 
@@ -125,9 +145,14 @@ lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
         if (const lks_result result = check_bone(world, def, i); result != LKS_OK) {
             return result;
         }
-        const lks_transform here{{0, 0, 0}, {0, 0, 0, LKS_ROTATION_ONE}};
-        const lks_joint_def joint = make_joint_def(def.bones[i], Placement(def), here, here);
-        if (const lks_result result = i > 0 ? check_joint_ranges(world, joint) : LKS_OK; result != LKS_OK) {
+        if (i == 0) {
+            continue;
+        }
+        const lks_joint_def joint = make_joint_def(def, def.bones[i], Placement(def));
+        if (const lks_result result = check_joint_ranges(world, joint); result != LKS_OK) {
+            return result;
+        }
+        if (const lks_result result = check_joint_points(world, joint); result != LKS_OK) {
             return result;
         }
     }
@@ -160,6 +185,7 @@ lks_bone lks_default_bone(void) {
     bone.body = lks_default_body_def();
     bone.joint_frame.rotation.w = LKS_ROTATION_ONE;
     bone.swing_limit = LKS_FIXED(180);
+    bone.swing_limit_z = -1;
     bone.twist_min = -LKS_FIXED(180);
     bone.twist_max = LKS_FIXED(180);
     return bone;
@@ -196,8 +222,7 @@ lks_result lks_world_add_ragdoll(lks_world* world, const lks_ragdoll_def* def, l
         const lks_body_def body = make_body_def(*def, bone, placement, shapes);
         lks_world_add_body(world, &body, &bodies[i]);
         if (i > 0) {
-            lks_joint_def joint = make_joint_def(
-                bone, placement, placement.place(def->bones[bone.parent].body.transform), body.transform);
+            lks_joint_def joint = make_joint_def(*def, bone, placement);
             joint.body_a = bodies[bone.parent];
             joint.body_b = bodies[i];
             lks_joint_id added{};

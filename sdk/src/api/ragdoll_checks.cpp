@@ -1,5 +1,7 @@
 #include "api/ragdoll_checks.h"
 
+#include "api/joint_checks.h"
+
 namespace lks {
 
 lks_result check_bone_tree(const lks_world& world, const lks_ragdoll_def& def) {
@@ -26,8 +28,11 @@ lks_result check_bone_tree(const lks_world& world, const lks_ragdoll_def& def) {
                                          << (i == 0 ? "; the first bone is the root and has none."
                                                     : "; a parent is an earlier bone."));
         }
-        const Number torque[] = {{"bone's motor_torque", " N·m", bone.motor_torque, 0, LKS_FIXED(1000000)}};
-        if (const lks_result result = check_numbers(world, torque); result != LKS_OK) {
+        const Number strengths[] = {
+            {"bone's motor_torque", " N·m", bone.motor_torque, 0, LKS_FIXED(1000000)},
+            {"bone's break_force", " N", bone.break_force, 0, greatest_break_strength},
+            {"bone's break_torque", " N·m", bone.break_torque, 0, greatest_break_strength}};
+        if (const lks_result result = check_numbers(world, strengths); result != LKS_OK) {
             return result;
         }
     }
