@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "fixed/arc_tangent.h"
 #include "rigid/joint_frames.h"
 
 namespace lks {
@@ -95,6 +96,39 @@ Vec3 angle_of(const Vec3& turned) {
     return {to_world_angle(turned.x), to_world_angle(turned.y), to_world_angle(turned.z)};
 }
 
+// The same of soft ones, which give way by the angle: at 11° its sine is 0.6 % less.
+Vec3 soft_axes_apart(const Joint& joint, const Body& a, const Body& b) {
+    fixed::NormalisedVector way{};
+    if (!fixed::normalise(axes_apart(joint, a, b), way)) {
+        return {0, 0, 0};
+    }
+    const auto [u, v] = axes_of(joint, a, b);
+    const auto sine = static_cast<std::int64_t>(fixed::length(sines(u, v)));
+    return fixed::scale(way.direction, fixed::angle_of(sine, fixed::dot(u, v)));
+}
+
+Vec3 soft_frames_apart(const Joint& joint, const Body& a, const Body& b) {
+    const fixed::Rotation q = relative_rotation(joint, a, b);
+    fixed::NormalisedVector half{};
+    if (!fixed::normalise(Vec3{q.x, q.y, q.z}, half)) {
+        return {0, 0, 0};
+    }
+    return fixed::scale(from_frame_a(joint, a, half.direction), 2 * fixed::angle_of(half.length, q.w));
+}
+
+// With what a soft one's push so far asks for.
+Vec3 left_to_turn(const Joint& joint, const Body& a, const Body& b) {
+    if (keeps_turn(joint)) {
+        return angle_of(turned_apart(joint, a, b) - joint.turn_start);
+    }
+    const auto soft = [&](std::int64_t c) {
+        return fixed::multiply_shift(c, joint.constants.angular_softness, 30);
+    };
+    const Vec3 angle = joint.description.kind == LKS_JOINT_HINGE ? soft_axes_apart(joint, a, b)
+                                                                 : soft_frames_apart(joint, a, b);
+    return angle + Vec3{soft(joint.turn.x), soft(joint.turn.y), soft(joint.turn.z)};
+}
+
 } // namespace
 
 void begin_turn(Joint& joint, const Body& a, const Body& b) {
@@ -135,14 +169,8 @@ void project_turn(Joint& joint, Body& a, Body& b) {
     if (!holds_turn(joint)) {
         return;
     }
-    const std::int64_t softness = joint.constants.angular_softness;
-    const auto soft = [&](std::int64_t c) { return fixed::multiply_shift(c, softness, 30); };
-    Vec3 left = angle_of(turned_apart(joint, a, b) - joint.turn_start);
-    if (softness != 0) {
-        left = left + Vec3{soft(joint.turn.x), soft(joint.turn.y), soft(joint.turn.z)};
-    }
     const Vec3 before = joint.turn;
-    joint.turn = before - solve(joint.turn_inverse, left);
+    joint.turn = before - solve(joint.turn_inverse, left_to_turn(joint, a, b));
     clamp_vector(joint.turn, greatest_push);
     turn_apart(joint, a, b, joint.turn - before);
 }

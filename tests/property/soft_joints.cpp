@@ -1,0 +1,78 @@
+// How far soft joints give way, against compliance times load.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support/bodies.h"
+
+using namespace support;
+
+namespace {
+
+constexpr double g = 9.81;
+
+// What hangs or stands out from an anchor after ten seconds, when its damping has brought it to rest.
+struct Soft {
+    Soft(const lks_joint_def& joint, const lks_body_shape& shape, const lks_vec3& place)
+        : world(world_def(60, 20)) {
+        const lks_body_id anchor = add_anchor(world, {});
+        lks_body_def def = lks_default_body_def();
+        def.never_sleeps = 1;
+        body = add_body(world, shape, place, def);
+        id = add_joint(world, joint, anchor, body);
+        world.step(600);
+        REQUIRE(state_of(world, body).velocity.length() < 1e-5);
+    }
+    double error() const {
+        lks_fixed error = 0;
+        REQUIRE(lks_joint_error(world, id, &error) == LKS_OK);
+        return metres(error);
+    }
+
+    World world;
+    lks_body_id body{};
+    lks_joint_id id{};
+};
+
+} // namespace
+
+TEST_CASE("a soft distance, and a soft hinge's point, give way by compliance times weight") {
+    for (const lks_joint_kind kind : {LKS_JOINT_DISTANCE, LKS_JOINT_HINGE, LKS_JOINT_FIXED}) {
+        lks_joint_def joint = lks_default_joint_def();
+        joint.kind = kind;
+        joint.distance_max = fixed(1);
+        joint.compliance = fixed(0.001);
+        joint.damping = fixed(100);
+        const bool hangs = kind == LKS_JOINT_DISTANCE;
+        const Soft soft(joint, ball_shape(0.1), hangs ? fixed(0, -1, 0) : lks_vec3{});
+        const double expected = 0.001 * mass_of(soft.world, soft.body) * g;
+        const double found = soft.error();
+        INFO("kind " << kind << ": " << found << " of " << expected << " m");
+        CHECK(std::abs(found / expected - 1) < 1e-4);
+    }
+}
+
+TEST_CASE("a soft hinge and a soft fixed joint bend across by angular compliance times torque, however far") {
+    // An arm of 20 kg, a metre long, level at first; a hinge's axis lies along it.
+    for (const lks_joint_kind kind : {LKS_JOINT_HINGE, LKS_JOINT_FIXED}) {
+        for (const double compliance : {0.0005, 0.002, 0.01, 0.05}) {
+            lks_joint_def joint = lks_default_joint_def();
+            joint.kind = kind;
+            joint.frame_a.rotation = joint.frame_b.rotation = about(0, 0, 1, 90);
+            joint.frame_b.position = fixed(-0.5, 0, 0);
+            joint.angular_compliance = fixed(compliance);
+            joint.angular_damping = fixed(20);
+            const Soft soft(joint, box_shape(0.5, 0.05, 0.1), fixed(0.5, 0, 0));
+            // θ = α·m·g·l·cos θ.
+            const double torque = mass_of(soft.world, soft.body) * g * 0.5;
+            double bent = 0;
+            for (double step = 1; step > 1e-12; step /= 2) {
+                bent += bent + step < compliance * torque * std::cos(bent + step) ? step : 0;
+            }
+            const Vector at = state_of(soft.world, soft.body).position;
+            const double found = std::atan2(-at.y, at.x);
+            INFO("kind " << kind << ": " << found << " of " << bent << " rad");
+            CHECK(std::abs(found / bent - 1) < 1e-4);
+        }
+    }
+}
