@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "support/bodies.h"
 
@@ -60,8 +61,9 @@ TEST_CASE("a free body keeps its angular momentum and gains no energy in ten min
 }
 
 TEST_CASE("a ball bounces to the height that its restitution gives it") {
-    for (const double restitution : {0.0, 0.5, 0.9}) {
-        World world(world_def(60, 20));
+    for (const auto& [restitution, substeps] :
+         {std::pair{0.0, 20u}, {0.3, 20u}, {0.5, 20u}, {0.9, 20u}, {0.3, 8u}, {0.5, 8u}, {0.9, 8u}}) {
+        World world(world_def(60, substeps));
         add_ground(world);
         lks_body_def def = lks_default_body_def();
         def.restitution = fixed(restitution);
@@ -81,8 +83,11 @@ TEST_CASE("a ball bounces to the height that its restitution gives it") {
                 break;
             }
         }
-        INFO("restitution " << restitution << ", height " << highest);
-        CHECK(std::abs(highest - 2 * restitution * restitution) < 0.02);
+        const double expected = 2 * restitution * restitution;
+        INFO("restitution " << restitution << ", " << substeps << " substeps: height " << highest << " of "
+                            << expected);
+        // A tick sees the top within half of it, and a substep the impact.
+        CHECK(std::abs(highest - expected) < 0.015 * expected + 1e-4);
     }
 }
 
@@ -106,7 +111,7 @@ TEST_CASE("a box slides as far as friction lets it") {
 TEST_CASE("a box stays on a slope below the angle of friction, and slides above it as it should") {
     const double friction = 0.5;
     const double limit = std::atan(friction) * 180 / std::acos(-1.0);
-    for (const double degrees : {limit - 1, limit + 3}) {
+    for (const double degrees : {limit - 1, limit - 0.1, limit + 0.1, limit + 0.3, limit + 3}) {
         World world(world_def(60, 8));
         lks_rotation slope{};
         REQUIRE(lks_rotation_from_axis_angle(0, 0, 1, degrees, &slope) == LKS_OK);
@@ -114,6 +119,7 @@ TEST_CASE("a box stays on a slope below the angle of friction, and slides above 
         const double angle = degrees * std::acos(-1.0) / 180;
         lks_body_def def = lks_default_body_def();
         def.static_friction = def.dynamic_friction = fixed(friction);
+        def.never_sleeps = 1; // what slides off so slowly would
         def.transform.rotation = slope;
         const lks_vec3 place = fixed(-0.25 * std::sin(angle), 0.25 * std::cos(angle), 0);
         const lks_body_id box = add_body(world, box_shape(0.5, 0.25, 0.5), place, def);
@@ -121,7 +127,8 @@ TEST_CASE("a box stays on a slope below the angle of friction, and slides above 
         const double moved = (state_of(world, box).position - metres(place)).length();
         const double expected = degrees < limit ? 0 : (std::sin(angle) - friction * std::cos(angle)) * g / 2;
         INFO(degrees << " degrees: " << moved << " of " << expected);
-        CHECK(std::abs(moved - expected) < 0.01 * expected + 1e-3);
+        // In its first substeps friction has no normal force to go by yet.
+        CHECK(std::abs(moved - expected) < 0.001 * expected + (degrees < limit ? 1e-4 : 1.4e-3));
     }
 }
 

@@ -195,24 +195,6 @@ TEST_CASE("what flies on a hinge or a fixed joint gains no energy, and its momen
     }
 }
 
-TEST_CASE("a distance joint is a rope, a rod or a strut") {
-    World world(world_def(60, 20));
-    const lks_body_id anchor = add_anchor(world, {});
-    const lks_body_id ball = add_body(world, ball_shape(0.1), fixed(0.3, 0, 0));
-    lks_joint_def joint = lks_default_joint_def();
-    joint.kind = LKS_JOINT_DISTANCE;
-    joint.distance_max = fixed(1);
-    const lks_joint_id id = add_joint(world, joint, anchor, ball);
-    double furthest = 0;
-    for (int tick = 0; tick < 600; ++tick) {
-        world.step();
-        furthest = std::max(furthest, state_of(world, ball).position.length());
-    }
-    CHECK(furthest < 1.003);
-    CHECK(furthest > 0.999);
-    CHECK(error_of(world, id) < 2e-3);
-}
-
 TEST_CASE("a chain of ten stays together, up to ten thousand to one") {
     struct Case {
         double mass;
