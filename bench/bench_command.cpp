@@ -28,6 +28,7 @@ constexpr Section sections[] = {
     {coupling_name, "12 humanoids with capes, ropes from hand to hand: what coupling costs, and its errors"},
     {ropes_name, "a rope of 99 segments, swept and solved at once: cost and stretch"},
     {growth_name, "1,000 to 1,000,000 constraints"},
+    {bodies_name, "1,250 to 20,000 balls on the ground"},
     {accuracy_name, "residual stretch against cost, substeps × iterations"},
     {instructions_name, "instructions a projection, by valgrind"},
 };
@@ -100,6 +101,8 @@ bool measure(const std::string& part, const BenchOptions& options, Results& resu
         measure_ropes(rounds, results);
     } else if (part == growth_name) {
         measure_growth(rounds, results);
+    } else if (part == bodies_name) {
+        measure_bodies(rounds, results);
     } else if (part == accuracy_name) {
         measure_accuracy(rounds, results);
     } else if (part == instructions_name) {

@@ -12,6 +12,7 @@ inline constexpr const char* ragdolls_name = "ragdolls_100";
 inline constexpr const char* pile_name = "ragdolls_pile";
 inline constexpr const char* coupling_name = "ragdolls_dressed";
 inline constexpr const char* ropes_name = "ropes_swing";
+inline constexpr const char* bodies_name = "bodies_growth";
 inline constexpr const char* accuracy_name = "accuracy";
 
 // Nanoseconds a projection by itself, the same within a tick, with two workers, and milliseconds a tick;
@@ -36,6 +37,8 @@ void measure_coupling(int rounds, Results& results);
 void measure_ropes(int rounds, Results& results);
 // Ours and float32 on cloths of 1,000 to 1,000,000 constraints.
 void measure_growth(int rounds, Results& results);
+// 1,250 to 20,000 balls side by side on the ground, at one substep: nanoseconds a body and tick.
+void measure_bodies(int rounds, Results& results);
 // A 64² cloth that falls and swings for two seconds: milliseconds a tick, and the root mean square of the
 // relative stretch of its constraints over the last second, for substeps × iterations.
 void measure_accuracy(int rounds, Results& results);

@@ -63,6 +63,9 @@ for variant in "coupled", "attached only", "side by side", "bodies alone", "coup
     value(dressed, "whole tick", f"20 substeps, {variant}")
 for measured in "joint error, worst", "attachment error, mean", "attachment error, worst":
     value(dressed, measured, "8 substeps, coupled")
+balls = measure("bodies_growth")
+for count in 1250, 20000:
+    value(balls, "tick", f"{count} balls")
 ropes = measure("ropes_swing")
 for variant in "swept, 10 substeps", "at once, 10 substeps":
     value(ropes, "tick a segment, 1:10,000", variant)

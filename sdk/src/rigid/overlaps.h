@@ -37,13 +37,19 @@ public:
     template <typename Use>
     void for_each_pair(const Use& use) {
         sort_into_cells();
-        for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
-            for (std::uint32_t level = levels_[i]; level <= greatest_level; ++level) {
-                if ((present_ >> level & 1) != 0) {
-                    search(i, level, use);
-                }
-            }
-        }
+        for_each_search([&](std::uint32_t i, std::uint32_t level, const Cell& cell, bool own) {
+            search_cell(i, level, cell, own, use);
+        });
+    }
+
+    // How often the last for_each_pair has looked at a box in a cell: its work, whatever the machine.
+    std::uint64_t looks() const {
+        std::uint64_t sum = 0;
+        for_each_search([&](std::uint32_t, std::uint32_t level, const Cell& cell, bool) {
+            const std::uint32_t bucket = bucket_of(cell, level);
+            sum += starts_[bucket + 1] - starts_[bucket];
+        });
+        return sum;
     }
 
 private:
@@ -64,8 +70,9 @@ private:
     void sort_into_cells();
 
     // At its own level a pair is found by the one in the earlier cell, or else by the lower index.
-    template <typename Use>
-    void search(std::uint32_t i, std::uint32_t level, const Use& use) {
+    // visit(cell, own): where it begins itself.
+    template <typename Visit>
+    void for_each_cell(std::uint32_t i, std::uint32_t level, const Visit& visit) const {
         const Box& box = boxes_[i];
         const Cell first = cell_of(box.low, level);
         const Cell last = cell_of(box.high, level);
@@ -75,7 +82,18 @@ private:
             for (std::int64_t y = own_x ? first.y : first.y - 1; y <= last.y; ++y) {
                 const bool own_y = own_x && y == first.y;
                 for (std::int64_t z = own_y ? first.z : first.z - 1; z <= last.z; ++z) {
-                    search_cell(i, level, {x, y, z}, own_y && z == first.z, use);
+                    visit(Cell{x, y, z}, own_y && z == first.z);
+                }
+            }
+        }
+    }
+
+    template <typename Visit>
+    void for_each_search(const Visit& visit) const {
+        for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
+            for (std::uint32_t level = levels_[i]; level <= greatest_level; ++level) {
+                if ((present_ >> level & 1) != 0) {
+                    for_each_cell(i, level, [&](const Cell& cell, bool own) { visit(i, level, cell, own); });
                 }
             }
         }
