@@ -1,5 +1,6 @@
 #include <cmath>
 #include <map>
+#include <type_traits>
 #include <utility>
 
 #include "paper.h"
@@ -101,6 +102,9 @@ reference::Model balloon(double shell_compliance, double volume_compliance) {
 template <typename Solver>
 BalloonRun run(const char* name, const reference::Model& model, Solver solver, int iterations) {
     solver.tick(frames);
+    if constexpr (std::is_same_v<Solver, reference::ImplicitEuler>) {
+        must_have_converged(solver);
+    }
     reference::Block<double> block;
     evaluate(model.volumes.front(), solver.positions(), block);
     std::vector<support::Vector> positions;

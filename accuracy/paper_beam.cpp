@@ -63,6 +63,7 @@ Beam run_beam(const std::vector<int>& iterations) {
     BeamRun exact;
     for (int frame = 0; frame < frames; ++frame) {
         newton.tick();
+        must_have_converged(newton);
         exact.tip.push_back(tip_of(newton.positions()));
     }
     for (const reference::Residual& residual : newton.residuals()) {

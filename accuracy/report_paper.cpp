@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "accuracy_report.h"
 
@@ -192,7 +194,23 @@ Section report_balloon(const std::vector<BalloonRun>& runs) {
         "at 1.5 times its own, in the reference solvers (the SDK has no volume constraint). Volume "
         "reached, of its own.\n\n" +
         table_head({"shell, m/N", "volume, m⁶/J", "solver", "iterations", "volume", "stretch of the shell"});
+    Plot plot{"paper-balloon.svg", "A balloon", lks_bench::Script("Volume that a balloon reaches")};
+    plot.script.command(
+        "set xlabel 'compliance of the volume, m^6/J'\nset ylabel 'of its own volume'\n"
+        "set logscale x\nset format x '10^{%T}'\nset xrange [7e-5:0.15]\nset yrange [1.1:1.55]");
+    // By solver, iterations and shell: a point a compliance of the volume.
+    std::vector<std::pair<std::string, std::string>> lines;
     for (const BalloonRun& run : runs) {
+        char shell[40];
+        std::snprintf(shell, sizeof shell, ", shell %g m/N", run.shell_compliance);
+        const std::string title =
+            run.solver + (run.iterations > 0 ? ", " + numbered(run.iterations) : "") + shell;
+        const auto same = [&](const auto& line) { return line.first == title; };
+        auto line = std::find_if(lines.begin(), lines.end(), same);
+        if (line == lines.end()) {
+            line = lines.insert(line, {title, ""});
+        }
+        line->second += lks_bench::value_pair(run.volume_compliance, run.volume);
         section.text += table_row({digits(run.shell_compliance), digits(run.volume_compliance), run.solver,
                                    run.iterations == 0 ? "" : std::to_string(run.iterations),
                                    digits(run.volume), percent(run.stretch)});
@@ -201,6 +219,18 @@ Section report_balloon(const std::vector<BalloonRun>& runs) {
                                        digits(run.volume_compliance) + " m6/J, " + numbered(run.iterations),
                                    run.volume, "of its own"});
     }
+    std::vector<std::string> curves;
+    for (const auto& [title, points] : lines) {
+        const std::string solver = title.substr(0, title.find(','));
+        const bool exact = solver == "Newton";
+        const std::string symbol = std::to_string(5 + curves.size() % 8);
+        curves.push_back(plot.script.data(points) +
+                         (exact ? std::string(" with lines lw 7 lc rgb '#d9d9d9'")
+                                : " with linespoints lw 1 ps 1 pt " + symbol + colour_of(solver)) +
+                         " title '" + title + "'");
+    }
+    plot.script.command("plot " + lks_bench::comma_separated(curves));
+    section.plots.push_back(std::move(plot));
     return section;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace reference {
 namespace {
@@ -370,6 +371,12 @@ void ImplicitEuler::solve_constraints() {
         for (std::size_t row = 0; row < blocks[i].rows; ++row) {
             multipliers_[i][row] += change[starts[i] + static_cast<int>(row)];
         }
+    }
+}
+
+void must_have_converged(const ImplicitEuler& solver) {
+    if (!solver.converged()) {
+        throw std::runtime_error("Newton's method did not converge.");
     }
 }
 

@@ -61,4 +61,7 @@ private:
     bool converged_ = true;
 };
 
+// Throws std::runtime_error where a reference is none.
+void must_have_converged(const ImplicitEuler& solver);
+
 } // namespace reference

@@ -1,6 +1,7 @@
 #include "reference/particle_scene.h"
 
 #include <cmath>
+#include <type_traits>
 
 #include "reference/fixed_point.h"
 #include "reference/implicit.h"
@@ -51,7 +52,12 @@ class Wrapped final : public Simulation {
 public:
     explicit Wrapped(Solver solver) : solver_(std::move(solver)) {}
 
-    void tick() override { solver_.tick(); }
+    void tick() override {
+        solver_.tick();
+        if constexpr (std::is_same_v<Solver, ImplicitEuler>) {
+            must_have_converged(solver_);
+        }
+    }
     std::vector<support::Vector> positions() const override { return widened(solver_.positions()); }
     std::vector<support::Vector> velocities() const override { return widened(solver_.velocities()); }
     double force(std::size_t edge) const override { return solver_.force(edge); }
