@@ -14,12 +14,21 @@ bool has_solver(const Experiment& experiment, const std::string& solver) {
                        [&](const Row& row) { return row.solver == solver; });
 }
 
+double worst_seen(const Experiment& experiment, const Row& row) {
+    double worst = 0;
+    for (std::size_t i = 0; i < experiment.quantities.size(); ++i) {
+        if (experiment.quantities[i].seen > 0 && !std::isnan(row.errors[i])) {
+            worst = std::max(worst, row.errors[i] / experiment.quantities[i].seen);
+        }
+    }
+    return worst;
+}
+
 const Row* best_within(const Experiment& experiment, const std::string& solver, int passes) {
     const Row* best = nullptr;
     for (const Row& row : experiment.rows) {
-        const double error = row.errors[experiment.main_quantity];
-        if (row.solver == solver && row.passes() <= passes && std::isfinite(error) &&
-            (best == nullptr || error < best->errors[experiment.main_quantity])) {
+        if (row.solver == solver && row.passes() <= passes &&
+            (best == nullptr || worst_seen(experiment, row) < worst_seen(experiment, *best))) {
             best = &row;
         }
     }

@@ -12,6 +12,7 @@ struct Quantity {
     std::string name; // "stretch, worst"
     std::string unit;
     std::string meaning;
+    double seen = 0; // an error that is seen in a game: settings are ranked in this unit; 0: not by this
 };
 
 // Behind the name of a solver whose rope is solved at once.
@@ -34,7 +35,7 @@ struct Experiment {
     std::string what; // in one sentence, what is simulated
     std::string unit_of_work = "particle";
     std::vector<Quantity> quantities{};
-    std::size_t main_quantity = 0; // by which settings are ranked
+    std::size_t main_quantity = 0; // that is plotted against cost
     // Deviation of the same quantity between fixed-point and double precision, and between double precision
     // and the converged reference: none where there is no such twin.
     bool has_rounding = false;
@@ -45,7 +46,9 @@ struct Experiment {
 std::string label_of(const reference::Schedule& schedule); // "20 × 1"
 
 bool has_solver(const Experiment& experiment, const std::string& solver);
-// The row of this solver that has the least main error among those of at most so many passes; null: none.
+// The largest of a row's errors, each in units of what is seen.
+double worst_seen(const Experiment& experiment, const Row& row);
+// The row of this solver for which that is least among those of at most so many passes; null: none.
 const Row* best_within(const Experiment& experiment, const std::string& solver, int passes);
 
 } // namespace lks_accuracy

@@ -62,7 +62,7 @@ public:
         }
         body_ = lks_bench::make_bullet_body(shape, static_cast<std::uint32_t>(schedule.substeps),
                                             static_cast<std::uint32_t>(schedule.iterations),
-                                            scene.linear_damping);
+                                            scene.linear_damping, ball_of(scene));
     }
 
     void tick() override { body_->tick(); }
@@ -77,6 +77,11 @@ public:
     double force(std::size_t) const override { return undefined; }
 
 private:
+    static lks_bench::BulletBall ball_of(const reference::ParticleScene& scene) {
+        const support::Vector& centre = scene.ball.centre;
+        return {{centre.x, centre.y, centre.z}, scene.ball.radius};
+    }
+
     std::unique_ptr<lks_bench::Variant> body_;
 };
 
@@ -240,37 +245,42 @@ Grid quick_grid() {
     return {{1, 5, 20}, {1, 4}, 20};
 }
 
+bool has_bullet_curves() {
+    return lks_bench::has_bullet();
+}
+
 Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, const Progress& progress) {
     Experiment experiment{measured.name, measured.title, measured.what, "particle"};
     experiment.quantities = {
         {"stretch, worst", "%",
-         "the most that any inextensible constraint is off its length in any tick; 0 is right"},
-        {"stretch, mean", "%", "the same, on the average over constraints and ticks"},
+         "the most that any inextensible constraint is off its length in any tick; 0 is right", 1},
+        {"stretch, mean", "%", "the same, on the average over constraints and ticks", 0.1},
         {"deviation", "m",
          "the farthest that any particle is from the converged solution after " +
-             std::to_string(measured.deviation_tick) + " ticks"},
+             std::to_string(measured.deviation_tick) + " ticks",
+         0.05},
         {"rounding", "m",
          "the farthest that any particle is then from the same method in double precision at the same "
          "setting"}};
     if (measured.lowest_vertex > 0) {
         experiment.quantities.push_back(
-            {"sag", "m",
-             "how far the middle of the lower edge is from its right height at the "
-             "end"});
+            {"sag", "m", "how far the middle of the lower edge is from its right height at the end", 0.05});
     }
     if (measured.force_at_pin) {
         experiment.quantities.push_back(
             {"support force, a tick", "%",
              "root mean square error of the force at the pin as it is read at the "
-             "end of a tick, relative to the force"});
+             "end of a tick, relative to the force",
+             20});
         experiment.quantities.push_back(
-            {"support force, mean", "%", "error of the mean of these readings over the whole run"});
+            {"support force, mean", "%", "error of the mean of these readings over the whole run", 5});
     }
     if (measured.keeps_energy) {
         experiment.quantities.push_back(
             {"energy drift", "%",
              "energy gained or lost at the end, relative to what the whole would get "
-             "by falling through its length"});
+             "by falling through its length",
+             5});
     }
     for (const int tick : measured.later_ticks) {
         const std::string when = std::to_string(tick / 60) + " s";
@@ -311,18 +321,15 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
         if (measured.may_be_tethered()) {
             add_ours(tethered(measured), tethered_suffix);
         }
-        if (measured.scene.ball.radius == 0) {
-            // Where nothing is soft, PBD of stiffness 1 is XPBD.
-            if (measured.has_compliance) {
-                experiment.rows.push_back(
-                    measurer.row_of(name_of(Engine::pbd), schedule, run(Engine::pbd, measured), nullptr));
-            }
-            if (lks_bench::has_bullet()) {
-                BulletSimulation bullet(measured.scene, measurer.model, schedule);
-                Row row =
-                    measurer.row_of("Bullet", schedule, trace(bullet, measured, measurer.stiff), nullptr);
-                experiment.rows.push_back(std::move(row));
-            }
+        // Where nothing is soft, PBD of stiffness 1 is XPBD.
+        if (measured.has_compliance) {
+            experiment.rows.push_back(
+                measurer.row_of(name_of(Engine::pbd), schedule, run(Engine::pbd, measured), nullptr));
+        }
+        if (lks_bench::has_bullet()) {
+            BulletSimulation bullet(measured.scene, measurer.model, schedule);
+            Row row = measurer.row_of("Bullet", schedule, trace(bullet, measured, measurer.stiff), nullptr);
+            experiment.rows.push_back(std::move(row));
         }
     }
     return experiment;

@@ -18,6 +18,9 @@ struct Grid {
 Grid whole_grid();
 Grid quick_grid();
 
+// Whether this build has Bullet beside ours.
+bool has_bullet_curves();
+
 Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, const Progress& progress);
 
 // Relative: the worst of all ticks, and the mean over constraints and ticks, of what is inextensible.

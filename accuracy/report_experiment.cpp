@@ -72,7 +72,7 @@ std::string whole_table(const Experiment& experiment, std::size_t quantity) {
 
 std::string budget_table(const Experiment& experiment, const std::string& solver) {
     std::vector<std::string> head{"passes a tick, at most", "best setting",
-                                  "ns a " + experiment.unit_of_work + " and tick"};
+                                  "ns a " + experiment.unit_of_work + " and tick", "worst, of what is seen"};
     for (const Quantity& quantity : experiment.quantities) {
         head.push_back(quantity.name + ", " + quantity.unit);
     }
@@ -83,7 +83,7 @@ std::string budget_table(const Experiment& experiment, const std::string& solver
             continue; // nothing better than with less
         }
         std::vector<std::string> cells{std::to_string(budget), label_of(best->schedule),
-                                       digits(best->nanoseconds)};
+                                       digits(best->nanoseconds), digits(worst_seen(experiment, *best))};
         for (const double error : best->errors) {
             cells.push_back(digits(error));
         }
@@ -185,11 +185,13 @@ Section report_experiment(const Experiment& experiment) {
     Section section;
     section.text = "\n## " + experiment.title + "\n\n" + experiment.what + "\n\n";
     for (const Quantity& quantity : experiment.quantities) {
-        section.text += "* **" + quantity.name + "** (" + quantity.unit + "): " + quantity.meaning + "\n";
+        section.text += "* **" + quantity.name + "** (" + quantity.unit + "): " + quantity.meaning +
+                        (quantity.seen > 0 ? "; seen from " + digits(quantity.seen) + " on" : "") + "\n";
     }
     for (const std::string& suffix : suffixes_of(experiment)) {
-        section.text += "\nFixed-point" + suffix + ", the best setting by " +
-                        experiment.quantities[experiment.main_quantity].name + " at each budget:\n\n" +
+        section.text += "\nFixed-point" + suffix +
+                        ", the best setting at each budget: that whose worst error is least, each in units "
+                        "of what is seen.\n\n" +
                         budget_table(experiment, "fixed-point" + suffix);
         if (experiment.has_rounding) {
             section.text += "\nWhere particles are" + suffix + ", one iteration a substep:\n\n" +

@@ -60,10 +60,10 @@ Experiment measure_stairs(const Grid& grid, int ticks, const Progress& progress)
                               " seconds. Falls are chaotic: no places are compared."};
     experiment.quantities = {
         {"joint separation, mean", "mm",
-         "how far the points that a joint holds together are apart; 0 is right"},
-        {"joint separation, worst", "mm", "the most that any joint is in any tick"},
+         "how far the points that a joint holds together are apart; 0 is right", 1},
+        {"joint separation, worst", "mm", "the most that any joint is in any tick", 10},
         {"energy gained", "%",
-         "the most that energy rises again, relative to what they start with; 0 is right"}};
+         "the most that energy rises again, relative to what they start with; 0 is right", 5}};
     experiment.unit_of_work = "body";
     const lks_bench::CrowdStairs crowd;
     for (const int substeps : grid.substeps) {

@@ -11,7 +11,8 @@ std::unique_ptr<Variant> make_bullet_peer(const Workload&) {
     return nullptr;
 }
 
-std::unique_ptr<Variant> make_bullet_body(const FloatCloth&, std::uint32_t, std::uint32_t, double) {
+std::unique_ptr<Variant> make_bullet_body(const FloatCloth&, std::uint32_t, std::uint32_t, double,
+                                          const BulletBall&) {
     return nullptr;
 }
 

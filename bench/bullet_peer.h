@@ -10,8 +10,14 @@ inline constexpr const char* bullet_name = "Bullet soft body";
 
 bool has_bullet();
 std::unique_ptr<Variant> make_bullet_peer(const Workload& workload);
+// What a body may meet: a frictionless ball that does not move.
+struct BulletBall {
+    Point centre{};
+    double radius = 0; // 0: none
+};
 // Of one body; `damping` is the share of velocity that is lost a second. Null: no Bullet.
 std::unique_ptr<Variant> make_bullet_body(const FloatCloth& shape, std::uint32_t substeps,
-                                          std::uint32_t iterations, double damping);
+                                          std::uint32_t iterations, double damping,
+                                          const BulletBall& ball = {});
 
 } // namespace lks_bench

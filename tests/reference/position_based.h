@@ -79,6 +79,8 @@ public:
                 moves_[p] = {};
             }
         }
+        leave_ball(Vec(model_.ball.centre), static_cast<Scalar>(model_.ball.radius), inverse_masses_,
+                   positions_);
     }
     void end_substep() {
         for (std::size_t p = 0; p < positions_.size(); ++p) {

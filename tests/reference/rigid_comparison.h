@@ -38,6 +38,8 @@ public:
     // The greatest until each of these ticks, in ascending order. Once a scene.
     std::vector<RigidDeviation> run(const std::vector<int>& ticks);
 
+    const RigidModel& model() const { return model_; } // as it begins
+
 private:
     Settings settings_;
     support::World world_;

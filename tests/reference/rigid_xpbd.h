@@ -77,6 +77,18 @@ public:
         const Quaternion<Scalar>& q = bodies_[body].orientation;
         return {q.x, q.y, q.z, q.w};
     }
+    // Joules.
+    double kinetic_energy() const {
+        double energy = 0;
+        for (std::size_t i = 0; i < body_count_; ++i) {
+            const Body& body = bodies_[i];
+            const Vec spin = body.rotation.back(body.spin);
+            energy += body.moves ? 0.5 * static_cast<double>(body.mass * body.velocity.dot(body.velocity) +
+                                                             spin.dot(products(body.inertia, spin)))
+                                 : 0;
+        }
+        return energy;
+    }
 
 private:
     using Body = MovingBody<Scalar>;

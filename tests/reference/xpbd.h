@@ -38,6 +38,22 @@ struct Vector3 {
     support::Vector widened() const { return {x, y, z}; }
 };
 
+// Puts what is inside of the ball on its surface, at the nearest place.
+template <typename Scalar>
+void leave_ball(const Vector3<Scalar>& centre, Scalar radius, const std::vector<Scalar>& inverse_masses,
+                std::vector<Vector3<Scalar>>& positions) {
+    if (!(radius > 0)) {
+        return;
+    }
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+        const Vector3<Scalar> from_centre = positions[p] - centre;
+        const Scalar distance = from_centre.length();
+        if (distance < radius && distance > 0 && inverse_masses[p] != 0) {
+            positions[p] = centre + from_centre * (radius / distance);
+        }
+    }
+}
+
 struct Settings {
     double tick_rate_hz = 60;
     int substeps = 20;
@@ -106,7 +122,7 @@ public:
                     if (!chain_.empty()) {
                         solve_chain();
                     }
-                    leave_ball();
+                    leave_ball(centre_, radius_, inverse_masses_, positions_);
                     if (contact_) {
                         collide(substep);
                     }
@@ -257,19 +273,6 @@ private:
             }
         }
         return scales;
-    }
-
-    void leave_ball() {
-        if (!(radius_ > 0)) {
-            return;
-        }
-        for (std::size_t p = 0; p < positions_.size(); ++p) {
-            const Vec from_centre = positions_[p] - centre_;
-            const Scalar distance = from_centre.length();
-            if (distance < radius_ && distance > 0 && inverse_masses_[p] != 0) {
-                positions_[p] = centre_ + from_centre * (radius_ / distance);
-            }
-        }
     }
 
     void solve_chain() {

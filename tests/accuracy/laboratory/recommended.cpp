@@ -8,6 +8,7 @@
 
 #include "accuracy/particles.h"
 #include "accuracy/stairs.h"
+#include "support/handles.h"
 
 using namespace lks_accuracy;
 using reference::Engine;
@@ -146,4 +147,25 @@ TEST_CASE("joints on the stairs are as near as the table of substeps says") {
         }
     }
     CHECK(promise == 3);
+}
+
+TEST_CASE("after 10 and 60 s a heavy rope is as near as docs/accuracy.md says" *
+          doctest::skip(!support::long_runs())) {
+    MeasuredScene scene = rope_heavy_end();
+    scene.later_ticks = {600, 3600};
+    const Experiment found = measure_particles(scene, {{5, 20}, {1}, 20}, [](const std::string&) {});
+    struct Later {
+        int substeps;
+        double ten, sixty; // metres
+    };
+    for (const Later& later : {Later{5, 0.2, 1.6}, Later{20, 0.06, 0.1}}) {
+        const Row& row = row_of(found, "fixed-point, at once", later.substeps);
+        INFO(later.substeps << " substeps");
+        CHECK(error_of(found, row, "deviation, 10 s") <= later.ten);
+        CHECK(error_of(found, row, "deviation, 60 s") <= later.sixty);
+        // Rounding does not grow with them.
+        CHECK(error_of(found, row, "rounding, 10 s") <= 1e-8);
+        CHECK(error_of(found, row, "rounding, 60 s") <= 1e-7);
+        CHECK(error_of(found, row, "rounding, 60 s") > 0);
+    }
 }

@@ -1,0 +1,100 @@
+// Rounding of ragdolls beside what their substeps are off: a humanoid against its twin in double precision,
+// and the stairs, which have no twin, by what more substeps leave.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "accuracy/stairs.h"
+#include "reference/rigid_bounds.h"
+#include "reference/rigid_xpbd.h"
+
+using namespace support;
+using namespace reference;
+
+namespace {
+
+constexpr int recommended_substeps = 5;
+
+// The humanoid, turning over in the air and then on the ground. Its bones don't touch each other, and its
+// joints have no friction: the twin knows neither.
+void throw_humanoid(RigidScene& scene) {
+    scene.add_ground(0.5, 0.5, false);
+    const Humanoid humanoid;
+    const Vector spin{3, 0.5, 1};
+    const auto cross = [](const Vector& a, const Vector& b) {
+        return Vector{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    };
+    for (const lks_bone& bone : humanoid.bones) {
+        lks_body_def def = bone.body;
+        const Vector v = cross(spin, metres(def.transform.position) - Vector{0, 1, 0}) + Vector{0.5, 0, 1};
+        def.velocity = fixed(v.x, v.y, v.z);
+        def.angular_velocity = fixed(spin.x, spin.y, spin.z);
+        def.transform.position = def.transform.position + fixed(0, 0.3, 0);
+        const std::size_t body = scene.add(humanoid.shapes[&bone - humanoid.bones], def);
+        if (bone.parent == LKS_NO_PARENT) {
+            continue;
+        }
+        REQUIRE(bone.limit_compliance == 0);
+        // Bones stand upright in the rest pose, and each is its own shape's middle.
+        const lks_bone& parent = humanoid.bones[bone.parent];
+        lks_joint_def joint = lks_default_joint_def();
+        joint.kind = bone.joint_kind;
+        joint.frame_a = joint.frame_b = bone.joint_frame;
+        joint.frame_a.position = bone.joint_frame.position - parent.body.transform.position;
+        joint.frame_b.position = bone.joint_frame.position - bone.body.transform.position;
+        joint.swing_limit = bone.swing_limit;
+        joint.twist_min = bone.twist_min;
+        joint.twist_max = bone.twist_max;
+        scene.join(joint, bone.parent, body);
+    }
+}
+
+std::vector<Vector> bones_after(const RigidModel& model, int substeps, int ticks) {
+    RigidSolver<double> solver(model, with_substeps(substeps));
+    solver.tick(ticks);
+    std::vector<Vector> bones;
+    for (std::size_t i = 0; i < solver.size(); ++i) {
+        bones.push_back(solver.position(i));
+    }
+    return bones;
+}
+
+} // namespace
+
+TEST_CASE("rounding of a thrown humanoid at 5 substeps is below a tenth of the method's own error") {
+    for (const int ticks : {15, 30, 45}) {
+        RigidScene scene(with_substeps(recommended_substeps));
+        throw_humanoid(scene);
+        const std::vector<Vector> method = bones_after(scene.model(), recommended_substeps, ticks);
+        const std::vector<Vector> converged = bones_after(scene.model(), long_runs() ? 1280 : 160, ticks);
+        double off = 0;
+        for (std::size_t i = 0; i < method.size(); ++i) {
+            off = std::max(off, (method[i] - converged[i]).length());
+        }
+        const RigidDeviation rounding = scene.run({ticks}).back();
+        std::printf("humanoid, 5 substeps, %2d ticks: method %.1e m, fixed-point %.1e m, float32 %.1e m\n",
+                    ticks, off, rounding.fixed_point.metres, rounding.single.metres);
+        INFO(ticks << " ticks");
+        CHECK(off > 1e-3);
+        CHECK(rounding.fixed_point.metres > 0);
+        CHECK(rounding.fixed_point.metres < off / 10);
+    }
+}
+
+TEST_CASE("rounding of joints on the stairs at 5 substeps is below a tenth of what they are apart") {
+    // What 20 substeps leave has four times the roundings of 5 in it, and all of them together are less.
+    const lks_accuracy::Experiment stairs =
+        lks_accuracy::measure_stairs({{recommended_substeps, 20}, {1}, 20}, 300, [](const std::string&) {});
+    const auto apart = [&](int substeps) {
+        const auto row = std::find_if(stairs.rows.begin(), stairs.rows.end(), [&](const auto& candidate) {
+            return candidate.solver == "fixed-point" && candidate.schedule.substeps == substeps;
+        });
+        REQUIRE(row != stairs.rows.end());
+        return row->errors[0];
+    };
+    std::printf("stairs: joints apart %.1e mm at 5 substeps, %.1e mm at 20\n", apart(5), apart(20));
+    CHECK(apart(20) > 0);
+    CHECK(apart(20) < apart(5) / 10);
+}
