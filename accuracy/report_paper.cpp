@@ -223,11 +223,13 @@ Section report_balloon(const std::vector<BalloonRun>& runs) {
     for (const auto& [title, points] : lines) {
         const std::string solver = title.substr(0, title.find(','));
         const bool exact = solver == "Newton";
-        const std::string symbol = std::to_string(5 + curves.size() % 8);
-        curves.push_back(plot.script.data(points) +
-                         (exact ? std::string(" with lines lw 7 lc rgb '#d9d9d9'")
-                                : " with linespoints lw 1 ps 1 pt " + symbol + colour_of(solver)) +
-                         " title '" + title + "'");
+        std::string looks = " with lines lw 7 lc rgb '#d9d9d9'";
+        if (!exact) {
+            looks = " with linespoints lw 1 ps 1 pt ";
+            looks.append(std::to_string(5 + curves.size() % 8)).append(colour_of(solver));
+        }
+        looks.append(" title '").append(title).append("'");
+        curves.push_back(plot.script.data(points) + looks);
     }
     plot.script.command("plot " + lks_bench::comma_separated(curves));
     section.plots.push_back(std::move(plot));

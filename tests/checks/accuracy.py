@@ -63,11 +63,12 @@ if "/dev/null/report" not in refused.stderr:
 
 with tempfile.TemporaryDirectory() as folder:
     drawn = shutil.which("gnuplot") is not None
-    done = run("paper_spring", "spring", "--quick", "--report", folder, expected=0 if drawn else 1)
+    parts = ("paper_spring", "paper_balloon", "spring")
+    done = run(*parts, "--quick", "--report", folder, expected=0 if drawn else 1)
     if "accuracy: spring" not in done.stderr:
         sys.exit("There was no progress.")
     made = {path.name for path in pathlib.Path(folder).iterdir()}
-    plots = {"paper-spring.svg", "spring.svg"} if drawn else set()
+    plots = {"paper-spring.svg", "paper-balloon.svg", "spring.svg"} if drawn else set()
     if made != {"report.md", "results.json", "results.csv"} | plots:
         sys.exit(f"The report consists of {sorted(made)}.")
     text = pathlib.Path(folder, "report.md").read_text()

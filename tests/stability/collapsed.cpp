@@ -23,23 +23,31 @@ struct Outcome {
 };
 
 // All particles are moved, within a tick, to shape(where they were), and let go there without speed.
+// Tethered: to two corners that are pinned and stay where they are.
 template <typename Shape>
-void collapse(const std::string& what, const Shape& shape, const Outcome& outcome) {
+void collapse(const std::string& what, const Shape& shape, const Outcome& outcome, bool tethered = false) {
     Net net;
     net.side = side;
     net.width = 1.1;
     net.particle_mass = 1.0 / (side * side);
+    if (tethered) {
+        net.anchors = {0, side - 1};
+    }
     const Asset asset = net.build();
     Subject subject = subject_of(net, asset);
     subject.world.gravity = {};
     Trial trial(subject);
+    for (const std::uint32_t anchor : net.anchors) {
+        trial.pin(anchor);
+    }
     std::vector<Vector> places;
     for (const Vector& position : trial.positions()) {
         places.push_back(shape(position));
     }
     trial.put(places);
     trial.run(300);
-    const std::string scene = named("cloth 12 × 12 ", what, outcome.seconds > 0 ? "" : " (stays so)");
+    const std::string scene = named(tethered ? "tethered cloth 12 × 12 " : "cloth 12 × 12 ", what,
+                                    outcome.seconds > 0 ? "" : " (stays so)");
     if (outcome.seconds > 0) {
         expect_recovery_within(scene, trial, outcome.seconds);
     }
@@ -78,4 +86,23 @@ TEST_CASE("a cloth that was brought into a point, a line or a plane recovers or 
                  return p.x < 0 ? p : Vector{0, 0, 0};
              },
              {0.3, 1, 600});
+}
+
+TEST_CASE("a tethered cloth that was brought into a point but for its pins recovers or stays finite") {
+    collapse(
+        "in one point",
+        [](const Vector&) {
+            return Vector{0, 0, 0};
+        },
+        {0.3, 1, 4000}, true);
+    collapse(
+        "at a thousandth of its size", [](const Vector& p) { return p * 1e-3; }, {0.3, 1, 3000}, true);
+    collapse(
+        "at a millionth of its size", [](const Vector& p) { return p * 1e-6; }, {0.3, 1, 6000}, true);
+    collapse(
+        "half of it in one point",
+        [](const Vector& p) {
+            return p.x < 0 ? p : Vector{0, 0, 0};
+        },
+        {0.3, 1, 4000}, true);
 }

@@ -19,9 +19,11 @@ World weightless(std::uint32_t substeps) {
     return World(def);
 }
 
+const char* const no_twin = "it counts and clamps nothing";
+
 void expect_count(const std::string& counter, double least, double most, std::uint64_t count) {
-    expect_at_least(counter, "counted", "", least, static_cast<double>(count));
-    expect_at_most(counter, "counted", "", most, static_cast<double>(count));
+    expect_at_least(counter, "counted", "", least, static_cast<double>(count), no_twin);
+    expect_at_most(counter, "counted", "", most, static_cast<double>(count), no_twin);
 }
 
 Asset two_points() {
@@ -57,7 +59,7 @@ TEST_CASE("speed_clamps: a particle's axis faster than the limit, and a body") {
     expect_count("speed_clamps, a particle", 1, 1, world.counters().speed_clamps);
     const double limit = metres(lks_world_speed_limit(world));
     expect_at_most("speed_clamps, a particle", "its speed then", "m/s", limit,
-                   metres(world.velocities(object)[0].x));
+                   metres(world.velocities(object)[0].x), no_twin);
     world.step(60);
     CHECK(world.counters().speed_clamps == 1);
 
@@ -66,7 +68,7 @@ TEST_CASE("speed_clamps: a particle's axis faster than the limit, and a body") {
     REQUIRE(lks_body_apply_impulse(bodies, body, fixed(100000, 0, 0), fixed(0, 0, 0)) == LKS_OK);
     bodies.step();
     expect_at_most("speed_clamps, a body", "its speed then", "m/s", limit,
-                   state_of(bodies, body).velocity.length());
+                   state_of(bodies, body).velocity.length(), no_twin);
     expect_count("speed_clamps, a body", 1, 1, bodies.counters().speed_clamps);
 }
 
@@ -92,7 +94,7 @@ TEST_CASE("world_edge_hits: an object that cannot follow its particles, once an 
     def.velocity = fixed(60, 0, 0);
     const lks_object_id object = world.add(def);
     world.step(120);
-    expect_count("world_edge_hits", 1, 120, world.counters().world_edge_hits);
+    expect_count("world_edge_hits", 112, 112, world.counters().world_edge_hits);
     REQUIRE(lks_object_add_velocity(world, object, fixed(-200, 0, 0)) == LKS_OK);
     world.step(60);
     const std::uint64_t hits = world.counters().world_edge_hits;
@@ -118,18 +120,19 @@ TEST_CASE("lost_contacts: more pairs than a tick has room for, and the crowd sti
                                   fixed(0.001 * (i % 10), 0.2 + 0.001 * (i / 10), 0.0005 * (i % 7))));
     }
     world.step(1);
-    expect_count("lost_contacts", 1, 19900.0 * 10, world.counters().lost_contacts);
+    expect_count("lost_contacts", 1.2e4, 19900, world.counters().lost_contacts);
     world.step(300);
     const std::uint64_t lost = world.counters().lost_contacts;
     world.step(20);
     CHECK(world.counters().lost_contacts == lost);
-    expect_at_most("lost_contacts, 200 balls in one place", "kinetic energy, after 5 s", "J", 1000,
-                   energy_of(world));
+    expect_at_most("lost_contacts, 200 balls in one place", "kinetic energy, after 5 s", "J", 500,
+                   energy_of(world), no_twin);
     double lowest = 1;
     for (const lks_body_id body : bodies) {
         lowest = std::min(lowest, state_of(world, body).position.y);
     }
-    expect_at_least("lost_contacts, 200 balls in one place", "lowest ball's middle", "m", 0.099, lowest);
+    expect_at_least("lost_contacts, 200 balls in one place", "lowest ball's middle", "m", 0.099, lowest,
+                    no_twin);
 }
 
 TEST_CASE("lost_events: more than there is room for") {

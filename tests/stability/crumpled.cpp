@@ -19,15 +19,22 @@ struct Bounds {
     double joules;  // kinetic, worst
 };
 
+struct Kind {
+    lks_distance_material material;
+    bool tethered;
+};
+
 // Hanging from its upper corners, which stay; everything else begins at place(vertex, where it was).
 template <typename Place>
-void start(const std::string& name, const lks_distance_material& material, const Place& place,
-           const Bounds& bounds) {
+void start(const std::string& name, const Kind& kind, const Place& place, const Bounds& bounds) {
     Net net;
     net.side = 16;
     net.width = 1.5;
     net.particle_mass = 1.0 / 256;
-    net.stretch = net.shear = net.bend = material;
+    net.stretch = net.shear = net.bend = kind.material;
+    if (kind.tethered) {
+        net.anchors = {0, 15};
+    }
     const Asset asset = net.build();
     Subject subject = subject_of(net, asset);
     subject.tolerance = 0.05;
@@ -49,8 +56,12 @@ void start(const std::string& name, const lks_distance_material& material, const
     CHECK(trial.world().counters().position_clamps == 0);
 }
 
-void start_all(const std::string& kind, const lks_distance_material& material) {
-    const bool soft_one = material.compliance > 0;
+// Of the five starts.
+struct AllBounds {
+    Bounds mirrored, inside_out, into_20_cm, into_2_mm, thrown_about;
+};
+
+void start_all(const std::string& name, const Kind& kind, const AllBounds& bounds) {
     Random random(11);
     const auto within = [&random](double reach) {
         const auto axis = [&] {
@@ -58,27 +69,43 @@ void start_all(const std::string& kind, const lks_distance_material& material) {
         };
         return Vector{axis(), axis(), axis()};
     };
-    start(kind + ", mirrored", material,
-          [](std::size_t, const Vector& p) {
-              return Vector{-p.x, -p.y, p.z};
-          },
-          {soft_one ? 0 : 1.5, soft_one ? 40.0 : 1, 1e4});
-    start(kind + ", inside out row by row", material,
-          [](std::size_t, const Vector& p) {
-              return Vector{p.x, std::fmod(std::abs(p.y), 0.2), 0};
-          },
-          {1.5, 1, 1500});
-    start(kind + ", crumpled into 20 cm", material, [&](std::size_t, const Vector&) { return within(0.1); },
-          {soft_one ? 0 : 1.5, soft_one ? 20.0 : 1, 2000});
-    start(kind + ", crumpled into 2 mm", material, [&](std::size_t, const Vector&) { return within(0.001); },
-          {soft_one ? 1.5 : 0, soft_one ? 1.0 : 12, 2000});
-    start(kind + ", thrown about over 20 m", material, [&](std::size_t, const Vector&) { return within(10); },
-          {5, 1, 2e4});
+    start(
+        name + ", mirrored", kind,
+        [](std::size_t, const Vector& p) {
+            return Vector{-p.x, -p.y, p.z};
+        },
+        bounds.mirrored);
+    start(
+        name + ", inside out row by row", kind,
+        [](std::size_t, const Vector& p) {
+            return Vector{p.x, std::fmod(std::abs(p.y), 0.2), 0};
+        },
+        bounds.inside_out);
+    start(
+        name + ", crumpled into 20 cm", kind, [&](std::size_t, const Vector&) { return within(0.1); },
+        bounds.into_20_cm);
+    start(
+        name + ", crumpled into 2 mm", kind, [&](std::size_t, const Vector&) { return within(0.001); },
+        bounds.into_2_mm);
+    start(
+        name + ", thrown about over 20 m", kind, [&](std::size_t, const Vector&) { return within(10); },
+        bounds.thrown_about);
 }
 
 } // namespace
 
-TEST_CASE("a cloth recovers from wherever its particles begin") {
-    start_all("inextensible cloth 16 × 16", stiff());
-    start_all("soft cloth 16 × 16, 1e-4 m/N", soft(1e-4, 1));
+TEST_CASE("a cloth recovers from wherever its particles begin, or keeps a few folds") {
+    start_all("inextensible cloth 16 × 16", {stiff(), false},
+              {{1.5, 1, 1e4}, {1.5, 1, 1500}, {1.5, 1, 2000}, {0, 12, 2000}, {5, 1, 2e4}});
+    start_all("soft cloth 16 × 16, 1e-4 m/N", {soft(1e-4, 1), false},
+              {{0, 40, 5000}, {1.5, 1, 1000}, {0, 20, 2000}, {1.5, 1, 2000}, {5, 1, 2e4}});
+}
+
+// At other starts than without tethers. Those pull all of it into shape at once, so that what is close
+// together is shot harder, and what is far away not as hard.
+TEST_CASE("so does a tethered one") {
+    start_all("tethered inextensible cloth 16 × 16", {stiff(), true},
+              {{0, 15, 1500}, {1.5, 1, 4000}, {1.5, 1, 6000}, {1.5, 1, 6000}, {0, 20, 4000}});
+    start_all("tethered soft cloth 16 × 16, 1e-4 m/N", {soft(1e-4, 1), true},
+              {{1.5, 1, 2000}, {0, 20, 3000}, {1.5, 1, 6000}, {1.5, 1, 6000}, {5, 1, 4000}});
 }

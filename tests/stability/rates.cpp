@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "stability/support/jointed.h"
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
 
@@ -16,11 +17,19 @@ struct Rate {
     double stretch; // percent
 };
 
+int ticks_of(std::uint32_t hz, std::uint32_t substeps) {
+    const double seconds = long_runs() ? 3 : hz * substeps > 20000 ? 0.1 : 1;
+    return static_cast<int>(seconds * hz);
+}
+
 // Of 32 × 32, let go when it is level, for three seconds.
-void hang(const Rate& rate) {
+void hang(const Rate& rate, bool tethered) {
     Net net;
     net.side = 32;
     net.particle_mass = 1.0 / (32 * 32);
+    if (tethered) {
+        net.anchors = {0, net.side - 1};
+    }
     const Asset asset = net.build();
     Subject subject = subject_of(net, asset);
     subject.world = world_def(rate.hz, rate.substeps);
@@ -28,22 +37,73 @@ void hang(const Rate& rate) {
     Trial trial(subject);
     trial.pin(0);
     trial.pin(net.side - 1);
-    const double seconds = long_runs() ? 3 : rate.hz * rate.substeps > 20000 ? 0.1 : 1;
-    trial.run(static_cast<int>(seconds * rate.hz));
-    const std::string name = named("cloth 32 × 32, ", rate.hz, " Hz × ", rate.substeps);
+    trial.run(ticks_of(rate.hz, rate.substeps));
+    const std::string name =
+        named(tethered ? "tethered cloth" : "cloth", " 32 × 32, ", rate.hz, " Hz × ", rate.substeps);
     expect_stretch_at_most(name, trial, rate.stretch);
     // At 100,000 substeps a second the roundings of projections, 2^-31 m and more, are speeds.
     expect_gain_at_most(name, trial, rate.hz * rate.substeps > 20000 ? 20 : 1);
     expect_nothing_clamped(trial);
 }
 
+constexpr Rate rates[] = {{10, 1, 6e4},  {10, 10, 1e3}, {10, 100, 30},    {30, 1, 1e4},  {60, 1, 2500},
+                          {60, 5, 200},  {60, 20, 20},  {60, 100, 2},     {240, 1, 300}, {240, 20, 4},
+                          {1000, 1, 25}, {1000, 10, 1}, {1000, 100, 0.25}};
+
+struct BodyRate {
+    std::uint32_t hz, substeps;
+    double gap; // millimetres
+};
+
+// Eight links, ten times the weight at the end, let go when they are level.
+void swing(const BodyRate& rate) {
+    Jointed scene(world_def(rate.hz, rate.substeps));
+    scene.add_chain(8, 10);
+    const JointCourse course = run(scene, ticks_of(rate.hz, rate.substeps));
+    const std::string name = named("8 links jointed, 1:10 at the end, ", rate.hz, " Hz × ", rate.substeps);
+    expect_at_most(name, "joints apart, worst", "mm", rate.gap, 1000 * course.gap.fixed,
+                   1000 * course.gap.single);
+    expect_at_most(name, "energy gained, of the greatest motion", "%", 1, 100 * course.gained_share.fixed,
+                   100 * course.gained_share.single);
+    CHECK(scene.world().counters().speed_clamps == 0);
+}
+
+// A box and a capsule fall on the ground from 20 cm.
+void fall(const BodyRate& rate) {
+    Jointed scene(world_def(rate.hz, rate.substeps));
+    scene.add_ground(0.5);
+    lks_body_def def = lks_default_body_def();
+    def.transform = turned(at(0, 0.5, 0), 1, 2, 3, 20);
+    const std::size_t box = scene.add(box_shape(0.2, 0.2, 0.2), def);
+    def.transform = turned(at(2, 0.5, 0), 0, 0, 1, 80);
+    const std::size_t capsule = scene.add(capsule_shape(0.1, 0.2), def);
+    const JointCourse course = run(scene, ticks_of(rate.hz, rate.substeps));
+    const std::string name = named("box and capsule that fall, ", rate.hz, " Hz × ", rate.substeps);
+    expect_at_most(name, "energy gained, of the greatest motion", "%", 1, 100 * course.gained_share.fixed,
+                   100 * course.gained_share.single);
+    if (scene.position(box).y < 0.45) {
+        expect_at_least(name, "capsule's middle above the ground, at the end", "m", 0.09,
+                        scene.position(capsule).y, scene.twin_position(capsule).y);
+    }
+    CHECK(scene.world().counters().speed_clamps == 0);
+}
+
 } // namespace
 
-TEST_CASE("a cloth hangs at any tick rate and any number of substeps") {
-    for (const Rate& rate :
-         {Rate{10, 1, 6e4}, Rate{10, 10, 1e3}, Rate{10, 100, 30}, Rate{30, 1, 1e4}, Rate{60, 1, 2500},
-          Rate{60, 5, 200}, Rate{60, 20, 20}, Rate{60, 100, 2}, Rate{240, 1, 300}, Rate{240, 20, 4},
-          Rate{1000, 1, 25}, Rate{1000, 10, 1}, Rate{1000, 100, 0.25}}) {
-        hang(rate);
+TEST_CASE("a cloth hangs at any tick rate and any number of substeps, with and without tethers") {
+    for (const Rate& rate : rates) {
+        hang(rate, false);
+        hang(rate, true);
+    }
+}
+
+TEST_CASE("bodies hang on their joints and fall at any tick rate and any number of substeps") {
+    for (const BodyRate& rate :
+         {BodyRate{10, 1, 0.5}, BodyRate{10, 10, 1e-4}, BodyRate{10, 100, 1e-5}, BodyRate{30, 1, 0.01},
+          BodyRate{60, 1, 1e-3}, BodyRate{60, 5, 1e-5}, BodyRate{60, 20, 1e-5}, BodyRate{60, 100, 1e-5},
+          BodyRate{240, 1, 1e-5}, BodyRate{240, 20, 1e-5}, BodyRate{1000, 1, 1e-5}, BodyRate{1000, 10, 1e-5},
+          BodyRate{1000, 100, 1e-5}}) {
+        swing(rate);
+        fall(rate);
     }
 }

@@ -1,6 +1,7 @@
 // Triangles ten thousand times as long as they are wide.
 #include <doctest/doctest.h>
 
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -32,13 +33,19 @@ Mesh ribbon(std::uint32_t columns, std::uint32_t rows, double length, double wid
 }
 
 void hang(const std::string& name, const Mesh& mesh, std::uint32_t pins, std::uint32_t hz, int ticks,
-          double stretch, double long_stretch) {
+          double stretch, double long_stretch, bool tethered) {
     const std::size_t count = mesh.vertices.size() / 3;
     const std::vector<double> masses(count, 0.01);
     lks_cloth_def def = mesh.def();
     def.mass = def.area_density = 0;
     def.vertex_masses = masses.data();
     def.stretch = def.shear = def.bend = stiff();
+    std::vector<std::uint32_t> anchors(pins);
+    std::iota(anchors.begin(), anchors.end(), 0u);
+    if (tethered) {
+        def.tether_anchors = anchors.data();
+        def.tether_anchor_count = pins;
+    }
     const Asset asset(def);
     Subject subject;
     subject.asset = &asset;
@@ -65,7 +72,13 @@ void hang(const std::string& name, const Mesh& mesh, std::uint32_t pins, std::ui
 
 TEST_CASE("triangles of 1:10,000 hold together") {
     // Held by one short side, by the first vertex of each sliver's end, and by a long side.
-    hang("30 slivers of 1 m × 0.1 mm, held at a long side", ribbon(1, 30, 1, 0.003), 2, 60, 300, 2000, 1e-3);
-    hang("30 needles of 0.1 mm × 1 m, held at one end", ribbon(30, 1, 0.003, 1), 31, 60, 300, 6, 1e-4);
-    hang("30 needles of 0.1 mm × 1 m, held at a corner", ribbon(30, 1, 0.003, 1), 1, 60, 300, 2000, 0.1);
+    for (const bool tethered : {false, true}) {
+        const std::string what = tethered ? "30 tethered " : "30 ";
+        hang(what + "slivers of 1 m × 0.1 mm, held at a long side", ribbon(1, 30, 1, 0.003), 2, 60, 300, 2000,
+             1e-3, tethered);
+        hang(what + "needles of 0.1 mm × 1 m, held at one end", ribbon(30, 1, 0.003, 1), 31, 60, 300, 6, 1e-4,
+             tethered);
+        hang(what + "needles of 0.1 mm × 1 m, held at a corner", ribbon(30, 1, 0.003, 1), 1, 60, 300, 2000,
+             0.1, tethered);
+    }
 }

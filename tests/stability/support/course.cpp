@@ -66,14 +66,25 @@ void Course::add(const Measured& now) {
     if (!(now.off <= 0.01)) {
         recovered_after_ = ticks_;
     }
+    if (!(now.depth <= 1e-5)) {
+        out_after_ = ticks_;
+    }
     finite_ = finite_ && std::isfinite(now.stretch) && std::isfinite(now.energy) && std::isfinite(now.reach);
 }
 
 double Course::recovery() const {
-    if (recovered_after_ == ticks_ && ticks_ > 0) {
+    return seconds_until(recovered_after_);
+}
+
+double Course::way_out() const {
+    return seconds_until(out_after_);
+}
+
+double Course::seconds_until(std::size_t tick) const {
+    if (tick == ticks_ && ticks_ > 0) {
         return std::numeric_limits<double>::infinity();
     }
-    return static_cast<double>(recovered_after_) * tick_seconds_;
+    return static_cast<double>(tick) * tick_seconds_;
 }
 
 } // namespace stability

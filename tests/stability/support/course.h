@@ -64,14 +64,19 @@ public:
     // Seconds until 99 of 100 edges were within the tolerance for good; infinite where they never are. A
     // cloth that was crumpled may keep a fold or two that it cannot get out of.
     double recovery() const;
+    // Seconds until no free particle was in a collider for good; infinite where one still is.
+    double way_out() const;
     // Every number is one.
     bool is_finite() const { return finite_; }
 
 private:
+    double seconds_until(std::size_t tick) const;
+
     Measured start_, worst_, last_;
     double tick_seconds_ = 0;
     std::size_t ticks_ = 0;
     std::size_t recovered_after_ = 0; // ticks
+    std::size_t out_after_ = 0;
     bool finite_ = true;
 };
 

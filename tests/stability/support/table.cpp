@@ -20,9 +20,6 @@ std::vector<Row>& rows() {
 }
 
 std::string text(double value, const std::string& unit) {
-    if (value == no_twin) {
-        return "";
-    }
     if (!std::isfinite(value)) {
         return "not finite";
     }
@@ -45,8 +42,10 @@ std::string margin_of(double greater, double less) {
 }
 
 void keep(const std::string& scene, const std::string& figure, const std::string& unit,
-          const std::string& bound, const std::string& margin, double measured, double single) {
-    rows().push_back({scene, figure, bound, text(measured, unit), margin, text(single, unit)});
+          const std::string& bound, const std::string& margin, double measured, const Twin& single) {
+    const std::string twin = single.why_none() == nullptr ? text(single.figure(), unit)
+                                                          : std::string("none: ") + single.why_none();
+    rows().push_back({scene, figure, bound, text(measured, unit), margin, twin});
 }
 
 // Prints the rows after the last test.
@@ -87,21 +86,21 @@ DOCTEST_REGISTER_LISTENER("stability_table", 1, Printer);
 } // namespace
 
 void expect_at_most(const std::string& scene, const std::string& figure, const std::string& unit,
-                    double bound, double measured, double single) {
+                    double bound, double measured, const Twin& single) {
     INFO(scene << ": " << figure << ", " << unit);
     CHECK(measured <= bound);
     keep(scene, figure, unit, "≤ " + text(bound, unit), margin_of(bound, measured), measured, single);
 }
 
 void expect_at_least(const std::string& scene, const std::string& figure, const std::string& unit,
-                     double bound, double measured, double single) {
+                     double bound, double measured, const Twin& single) {
     INFO(scene << ": " << figure << ", " << unit);
     CHECK(measured >= bound);
     keep(scene, figure, unit, "≥ " + text(bound, unit), margin_of(measured, bound), measured, single);
 }
 
 void tell(const std::string& scene, const std::string& figure, const std::string& unit, double measured,
-          double single) {
+          const Twin& single) {
     keep(scene, figure, unit, "", "", measured, single);
 }
 

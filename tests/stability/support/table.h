@@ -2,7 +2,6 @@
 // the float32 twin has beside it. Printed as Markdown when the program ends.
 #pragma once
 
-#include <limits>
 #include <sstream>
 #include <string>
 
@@ -16,20 +15,30 @@ std::string named(const Parts&... parts) {
     return text.str();
 }
 
-// Where the twin has no such scene (bodies that touch, counters of the SDK).
-inline constexpr double no_twin = -std::numeric_limits<double>::infinity();
+// What the float32 twin has of a figure, finite or not, or why there is no such twin.
+class Twin {
+public:
+    Twin(double figure) : figure_(figure) {}
+    Twin(const char* why_none) : why_none_(why_none) {}
 
-// Fails the test unless measured ≤ bound, and keeps a row. `unit` stands behind the figures. A twin that is
-// not finite may be given as it is.
+    double figure() const { return figure_; }
+    const char* why_none() const { return why_none_; } // null: there is one
+
+private:
+    double figure_ = 0;
+    const char* why_none_ = nullptr;
+};
+
+// Fails the test unless measured ≤ bound, and keeps a row. `unit` stands behind the figures.
 void expect_at_most(const std::string& scene, const std::string& figure, const std::string& unit,
-                    double bound, double measured, double single = no_twin);
+                    double bound, double measured, const Twin& single);
 
 // The same from below.
 void expect_at_least(const std::string& scene, const std::string& figure, const std::string& unit,
-                     double bound, double measured, double single = no_twin);
+                     double bound, double measured, const Twin& single);
 
 // A row that nothing is asserted of: what a limit costs.
 void tell(const std::string& scene, const std::string& figure, const std::string& unit, double measured,
-          double single = no_twin);
+          const Twin& single);
 
 } // namespace stability

@@ -35,6 +35,28 @@ lks_vec3 fixed_of(const Vector& v) {
     return support::fixed(v.x, v.y, v.z);
 }
 
+// The SDK's rule (docs/ropes.md).
+bool is_solved_at_once(const reference::Model& rope) {
+    double mass = 0;
+    for (const double of_point : rope.masses) {
+        mass += of_point;
+    }
+    return rope.edges.size() > 1 &&
+           std::any_of(rope.edges.begin(), rope.edges.end(), [&](const reference::Edge& edge) {
+               return edge.family == LKS_CONSTRAINT_STRETCH &&
+                      400 * std::min(rope.masses[edge.a], rope.masses[edge.b]) * edge.rest < mass;
+           });
+}
+
+reference::Model model_for(const support::World& world, lks_object_id object, const Subject& subject) {
+    reference::Model model = reference::model_of(world, object, *subject.asset, subject.transform.position,
+                                                 subject.masses, subject.materials);
+    if (subject.rope && is_solved_at_once(model)) {
+        model.chain = segments_of(model.edges);
+    }
+    return model;
+}
+
 } // namespace
 
 Subject subject_of(const support::Net& net, const support::Asset& asset) {
@@ -52,14 +74,13 @@ Subject subject_of(const support::Chain& chain, const support::Asset& asset) {
     subject.asset = &asset;
     subject.masses.assign(asset.vertex_count(), chain.particle_mass);
     subject.materials = {chain.stretch, support::off, support::off};
+    subject.rope = true;
     return subject;
 }
 
 Trial::Trial(const Subject& subject)
     : subject_(subject), world_(subject.world), object_(add_to(world_, subject)),
-      meter_(reference::model_of(world_, object_, *subject.asset, subject.transform.position, subject.masses,
-                                 subject.materials),
-             support::metres(subject.world.gravity), subject.tolerance),
+      meter_(model_for(world_, object_, subject), support::metres(subject.world.gravity), subject.tolerance),
       twin_(std::make_unique<reference::Solver<float>>(meter_.model(), settings_of(subject),
                                                        subject.twin_place)) {
     for (std::size_t i = 0; i < size(); ++i) {
@@ -167,6 +188,14 @@ std::vector<Vector> Trial::positions() const {
     return world_.positions_from(object_, subject_.transform.position);
 }
 
+std::vector<Vector> Trial::twin_positions() const {
+    std::vector<Vector> positions;
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        positions.push_back(twin_->position(i));
+    }
+    return positions;
+}
+
 double Trial::depth_of(const std::vector<Vector>& positions) const {
     double deepest = 0;
     for (const Obstacle& obstacle : obstacles_) {
@@ -197,13 +226,22 @@ void Trial::measure(bool begins) {
         velocities.push_back(support::metres(velocity));
     }
     record(fixed_, positions(), velocities);
-    std::vector<Vector> places;
     velocities.clear();
     for (std::size_t i = 0; i < size(); ++i) {
-        places.push_back(twin_->position(i));
         velocities.push_back(twin_->velocity(i));
     }
-    record(single_, places, velocities);
+    record(single_, twin_positions(), velocities);
+}
+
+double farthest(const std::vector<Vector>& a, const std::vector<Vector>& b) {
+    double distance = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double apart = (a[i] - b[i]).length();
+        if (!(apart <= distance)) {
+            distance = apart; // also where it is no number
+        }
+    }
+    return distance;
 }
 
 void expect_stretch_at_most(const std::string& scene, const Trial& trial, double percent) {
@@ -224,6 +262,11 @@ void expect_last_off_at_most(const std::string& scene, const Trial& trial, doubl
 void expect_recovery_within(const std::string& scene, const Trial& trial, double seconds) {
     expect_at_most(scene, "recovered after", "s", seconds, trial.fixed().recovery(),
                    trial.single().recovery());
+}
+
+void expect_out_within(const std::string& scene, const Trial& trial, double seconds) {
+    expect_at_most(scene, "out of the collider after", "s", seconds, trial.fixed().way_out(),
+                   trial.single().way_out());
 }
 
 void expect_kinetic_energy_at_most(const std::string& scene, const Trial& trial, double joules) {

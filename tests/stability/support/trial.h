@@ -25,6 +25,7 @@ struct Subject {
     double radius = 0;            // of a particle
     double friction = 1;          // of the asset
     double tolerance = 0.05;      // of the stretch that counts as recovered
+    bool rope = false;            // automatic: the twin solves it at once where the SDK does
     support::Vector twin_place{}; // how far from its origin the twin has it; the SDK does not care
 };
 
@@ -64,6 +65,7 @@ public:
     const Course& fixed() const { return fixed_; }
     const Course& single() const { return single_; }
     std::vector<support::Vector> positions() const;
+    std::vector<support::Vector> twin_positions() const;
     support::Vector twin_position(std::uint32_t vertex) const { return twin_->position(vertex); }
 
 private:
@@ -87,12 +89,17 @@ private:
     Course fixed_, single_;
 };
 
+// The largest distance of a particle.
+double farthest(const std::vector<support::Vector>& a, const std::vector<support::Vector>& b);
+
 // The rows that nearly every case has. `what` of both courses, in percent where it is a stretch.
 void expect_stretch_at_most(const std::string& scene, const Trial& trial, double percent);
 void expect_last_stretch_at_most(const std::string& scene, const Trial& trial, double percent);
 // Of the edges, percent that are beyond the tolerance.
 void expect_last_off_at_most(const std::string& scene, const Trial& trial, double percent);
 void expect_recovery_within(const std::string& scene, const Trial& trial, double seconds);
+// Nothing is inside of a collider any more.
+void expect_out_within(const std::string& scene, const Trial& trial, double seconds);
 void expect_kinetic_energy_at_most(const std::string& scene, const Trial& trial, double joules);
 void expect_last_kinetic_energy_at_most(const std::string& scene, const Trial& trial, double joules);
 // The energy above what there was at the start, percent of the greatest kinetic energy.
