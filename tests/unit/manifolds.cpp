@@ -100,7 +100,7 @@ Tally compare(std::uint32_t kind_a, std::uint32_t kind_b, int rounds) {
             continue;
         }
         lks::Manifold manifold{};
-        lks::collide(a, b, LKS_FIXED(5), manifold);
+        lks::collide(a, b, LKS_FIXED(5), lks::no_side, manifold);
         REQUIRE(manifold.count >= 1);
         const double expected = distance - metres(a.radius) - metres(b.radius);
         tally.worst = std::max(tally.worst, std::abs(least_separation(manifold) - expected));
@@ -141,7 +141,7 @@ TEST_CASE("boxes never seem to overlap where they are apart") {
         const lks::Piece b = random_piece(random, LKS_SHAPE_BOX, 1.8);
         const double distance = core_distance(a, b);
         lks::Manifold manifold{};
-        lks::collide(a, b, LKS_FIXED(5), manifold);
+        lks::collide(a, b, LKS_FIXED(5), lks::no_side, manifold);
         if (manifold.count == 0) {
             // Beside each other: nothing of either face is over the other.
             CHECK(distance > 0.01);
@@ -172,7 +172,7 @@ TEST_CASE("a box that lies on a box touches it in four points, on a plane too") 
     high.half_extents = {fixed(0.25), fixed(0.25), fixed(0.25)};
     high.centre = {fixed(0.1), fixed(0.751), fixed(-0.2)};
     lks::Manifold manifold{};
-    lks::collide(low, high, fixed(0.01), manifold);
+    lks::collide(low, high, fixed(0.01), lks::no_side, manifold);
     REQUIRE(manifold.count == 4);
     CHECK(manifold.normal.y == 1 << 30);
     for (const lks::ManifoldPoint& point : manifold.points) {
@@ -183,7 +183,7 @@ TEST_CASE("a box that lies on a box touches it in four points, on a plane too") 
     plane.kind = LKS_SHAPE_PLANE;
     plane.axes = low.axes;
     plane.centre = {0, fixed(0.5), 0};
-    lks::collide(high, plane, fixed(0.01), manifold);
+    lks::collide(high, plane, fixed(0.01), lks::no_side, manifold);
     REQUIRE(manifold.count == 4);
     CHECK(manifold.normal.y == -(1 << 30));
 }
@@ -203,7 +203,7 @@ TEST_CASE("equal boxes upon each other touch at their corners, a hair aside and 
         high.axes = lks::fixed::to_matrix(
             lks::fixed::normalise(lks::fixed::Rotation{turn(), turn(), turn(), 1 << 30}));
         lks::Manifold manifold{};
-        lks::collide(low, high, fixed(0.01), manifold);
+        lks::collide(low, high, fixed(0.01), lks::no_side, manifold);
         REQUIRE(manifold.count == 4);
         double sum_x = 0;
         double sum_z = 0;
@@ -229,13 +229,52 @@ TEST_CASE("shapes in exactly the same place have a normal and an overlap") {
             b.centre = a.centre;
             b.axes = a.axes;
             lks::Manifold manifold{};
-            lks::collide(a, b, 0, manifold);
+            lks::collide(a, b, 0, lks::no_side, manifold);
             REQUIRE(manifold.count >= 1);
             CHECK(least_separation(manifold) < 0);
             const double length =
                 std::hypot(double(manifold.normal.x), double(manifold.normal.y), double(manifold.normal.z)) *
                 0x1p-30;
             CHECK(std::abs(length - 1) < 1e-8);
+        }
+    }
+}
+
+TEST_CASE("what was pressed past a box's middle, or through it, is kept on the side that it came from") {
+    Random random(22);
+    for (const std::uint32_t kind : {LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE, LKS_SHAPE_BOX}) {
+        for (int round = 0; round < 400; ++round) {
+            lks::Piece wall = random_piece(random, LKS_SHAPE_BOX, 0);
+            wall.half_extents = {fixed(0.025), fixed(5), fixed(5)};
+            lks::Piece limb = random_piece(random, kind, 0);
+            const auto place = [&](double height) {
+                const Vector p = centre(wall) + axis(wall, 0) * height;
+                limb.centre = {fixed(p.x), fixed(p.y), fixed(p.z)};
+            };
+            const auto height_along = [&](const lks::fixed::Direction& normal) { // on the wall's axis
+                return axis(wall, 0).dot(Vector{double(normal.x), double(normal.y), double(normal.z)}) *
+                       0x1p-30;
+            };
+            lks::Manifold before{};
+            place(0.9);
+            const bool wall_first = round % 2 == 1;
+            const lks::Piece& a = wall_first ? wall : limb;
+            const lks::Piece& b = wall_first ? limb : wall;
+            lks::collide(a, b, LKS_FIXED(1), lks::no_side, before);
+            REQUIRE(std::abs(height_along(before.normal) - (wall_first ? 1 : -1)) < 1e-6);
+            const double least_before = least_separation(before);
+            for (const double height : {-0.01, -0.1, -0.9}) {
+                place(height);
+                lks::Manifold alone{};
+                lks::collide(a, b, LKS_FIXED(1), lks::no_side, alone);
+                CHECK(height_along(alone.normal) * height_along(before.normal) < 0);
+                lks::Manifold now{};
+                lks::collide(a, b, LKS_FIXED(1), before.normal, now);
+                REQUIRE(now.count >= 1);
+                CHECK(height_along(now.normal) * height_along(before.normal) > 0.99);
+                // As much deeper as it went.
+                CHECK(std::abs(least_separation(now) - least_before - (height - 0.9)) < 1e-3);
+            }
         }
     }
 }

@@ -60,17 +60,17 @@ void collide_plane(const Piece& a, const Piece& plane, std::int64_t margin, Mani
 
 } // namespace manifold_detail
 
-void collide(const Piece& a, const Piece& b, std::int64_t margin, Manifold& out) {
+void collide(const Piece& a, const Piece& b, std::int64_t margin, const Direction& side, Manifold& out) {
     using namespace manifold_detail;
     out.count = 0;
     if (b.kind == LKS_SHAPE_PLANE) {
         collide_plane(a, b, margin, out);
     } else if (a.kind == LKS_SHAPE_BOX && b.kind == LKS_SHAPE_BOX) {
-        collide_boxes(a, b, margin, out);
+        collide_boxes(a, b, margin, side, out);
     } else if (b.kind == LKS_SHAPE_BOX) {
-        collide_segment_box(a, b, margin, out);
+        collide_segment_box(a, b, margin, side, out);
     } else if (a.kind == LKS_SHAPE_BOX) {
-        collide_segment_box(b, a, margin, out);
+        collide_segment_box(b, a, margin, -side, out);
         out.normal = -out.normal;
         for (std::uint32_t i = 0; i < out.count; ++i) {
             std::swap(out.points[i].core_a, out.points[i].core_b);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "fixed/formats.h"
 #include "fixed/rotation.h"
 
 namespace lks {
@@ -36,16 +37,29 @@ struct Manifold {
     ManifoldPoint points[greatest_point_count];
 };
 
+// The normal of those that have not touched before.
+inline constexpr fixed::Direction no_side{0, 0, 0};
+
+// Whether a normal is clearly against the one before: within 60° of its opposite.
+inline bool against(const fixed::Direction& normal, const fixed::Direction& side) {
+    return fixed::dot(normal, side) < -direction_one / 2;
+}
+
 // Points with a separation of at most `margin`. Any kinds, but a plane only as b. An exact tie goes to the
-// first of the features in their canonical order, so that the result depends on the two pieces only.
-void collide(const Piece& a, const Piece& b, std::int64_t margin, Manifold& out);
+// first of the features in their canonical order, so that the result depends on the arguments only. `side`
+// is the normal that they touched with before: what has been pressed past the middle of a box, or through it,
+// is still kept on the side that it came from.
+void collide(const Piece& a, const Piece& b, std::int64_t margin, const fixed::Direction& side,
+             Manifold& out);
 
 namespace manifold_detail {
 
 void add_point(Manifold& out, const fixed::Vec3& core_a, const fixed::Vec3& core_b, std::int64_t radii,
                std::int64_t margin, std::uint32_t feature);
-void collide_boxes(const Piece& a, const Piece& b, std::int64_t margin, Manifold& out);
-void collide_segment_box(const Piece& segment, const Piece& box, std::int64_t margin, Manifold& out);
+void collide_boxes(const Piece& a, const Piece& b, std::int64_t margin, const fixed::Direction& side,
+                   Manifold& out);
+void collide_segment_box(const Piece& segment, const Piece& box, std::int64_t margin,
+                         const fixed::Direction& side, Manifold& out);
 void collide_segments(const Piece& a, const Piece& b, std::int64_t margin, Manifold& out);
 void collide_plane(const Piece& a, const Piece& plane, std::int64_t margin, Manifold& out);
 

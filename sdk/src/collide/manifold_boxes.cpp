@@ -99,8 +99,8 @@ void reduce(Polygon& polygon) {
 
 class Boxes {
 public:
-    Boxes(const Piece& a, const Piece& b, std::int64_t margin, Manifold& out)
-        : a_(a), b_(b), margin_(margin), out_(out), offset_(b.centre - a.centre) {
+    Boxes(const Piece& a, const Piece& b, std::int64_t margin, const Direction& side, Manifold& out)
+        : a_(a), b_(b), margin_(margin), side_(side), out_(out), offset_(b.centre - a.centre) {
         for (int i = 0; i < 3; ++i) {
             for (int j = 0; j < 3; ++j) {
                 cosines_[i][j] = fixed::dot(axis(a.axes, i), axis(b.axes, j));
@@ -135,6 +135,11 @@ private:
         return part(x, box.half_extents.x) + part(y, box.half_extents.y) + part(z, box.half_extents.z);
     }
 
+    // Whether the normal along an axis is the axis reversed: from a to b, or as it was.
+    bool points_back(const Direction& along, std::int64_t distance) const {
+        return distance < 0 ? !against(-along, side_) : against(along, side_);
+    }
+
     void find_faces() {
         for (int i = 0; i < 6; ++i) {
             const bool of_a = i < 3;
@@ -143,12 +148,13 @@ private:
             const std::int64_t distance = fixed::dot(normal, offset_);
             const std::int64_t other = of_a ? width(b_, cosines_[k][0], cosines_[k][1], cosines_[k][2])
                                             : width(a_, cosines_[0][k], cosines_[1][k], cosines_[2][k]);
-            const std::int64_t separation = size(distance) - extent(of_a ? a_ : b_, k) - other;
+            const bool back = points_back(normal, distance);
+            const std::int64_t separation = (back ? -distance : distance) - extent(of_a ? a_ : b_, k) - other;
             // The other box's face has to be clearly better, so that the choice does not flicker.
             if (best_face_ < 0 || separation > face_separation_ + (of_a ? 0 : tolerance)) {
                 best_face_ = i;
                 face_separation_ = separation;
-                face_normal_ = distance < 0 ? -normal : normal; // from a to b
+                face_normal_ = back ? -normal : normal; // from a to b
             }
         }
     }
@@ -174,15 +180,17 @@ private:
                 const std::int64_t distance = fixed::dot(n, offset_);
                 const Direction in_a = fixed::rotate_transposed(a_.axes, n);
                 const Direction in_b = fixed::rotate_transposed(b_.axes, n);
-                const std::int64_t separation =
-                    size(distance) - width(a_, in_a.x, in_a.y, in_a.z) - width(b_, in_b.x, in_b.y, in_b.z);
+                const bool back = points_back(n, distance);
+                const std::int64_t separation = (back ? -distance : distance) -
+                                                width(a_, in_a.x, in_a.y, in_a.z) -
+                                                width(b_, in_b.x, in_b.y, in_b.z);
                 if (separation > margin_) {
                     return false;
                 }
                 if (separation > best) {
                     best = separation;
                     best_edge_ = 3 * i + j;
-                    edge_normal_ = distance < 0 ? -n : n;
+                    edge_normal_ = back ? -n : n;
                 }
             }
         }
@@ -305,6 +313,7 @@ private:
     const Piece& a_;
     const Piece& b_;
     std::int64_t margin_;
+    Direction side_;
     Manifold& out_;
     Vec3 offset_;
     std::int32_t cosines_[3][3];
@@ -317,8 +326,9 @@ private:
 
 } // namespace
 
-void collide_boxes(const Piece& a, const Piece& b, std::int64_t margin, Manifold& out) {
-    Boxes(a, b, margin, out).run();
+void collide_boxes(const Piece& a, const Piece& b, std::int64_t margin, const Direction& side,
+                   Manifold& out) {
+    Boxes(a, b, margin, side, out).run();
 }
 
 } // namespace lks::manifold_detail

@@ -94,14 +94,22 @@ struct Face {
     std::int64_t sign;
 };
 
-// The face through which the whole segment is out of the box soonest.
-Face nearest_way_out(const LocalSegment& segment) {
+// As against() has it, for a side in the box's frame, from the box to the segment.
+bool is_against(const Face& face, const std::int32_t (&side)[3]) {
+    return face.sign * side[face.axis] < -direction_one / 2;
+}
+
+// The face through which the whole segment is out of the box soonest, but for those against its side.
+Face nearest_way_out(const LocalSegment& segment, const std::int32_t (&side)[3]) {
     Face best{0, 1};
     std::int64_t least = INT64_MAX;
     for (int axis = 0; axis < 3; ++axis) {
         const std::int64_t one_end = segment.at(axis, -segment.half);
         const std::int64_t other_end = segment.at(axis, segment.half);
         for (const std::int64_t sign : {1, -1}) {
+            if (is_against({axis, sign}, side)) {
+                continue;
+            }
             const std::int64_t depth = segment.extents[axis] - std::min(sign * one_end, sign * other_end);
             if (depth < least) {
                 least = depth;
@@ -114,8 +122,13 @@ Face nearest_way_out(const LocalSegment& segment) {
 
 class SegmentBox {
 public:
-    SegmentBox(const Piece& segment, const Piece& box, std::int64_t margin, Manifold& out)
+    SegmentBox(const Piece& segment, const Piece& box, std::int64_t margin, const Direction& side,
+               Manifold& out)
         : piece_(segment), box_(box), margin_(margin), out_(out) {
+        const Direction outward = -fixed::rotate_transposed(box.axes, side);
+        side_[0] = outward.x;
+        side_[1] = outward.y;
+        side_[2] = outward.z;
         const Vec3 centre = fixed::rotate_transposed(box.axes, segment.centre - box.centre);
         const Direction direction = fixed::rotate_transposed(box.axes, axis(segment.axes, 1));
         local_ = {{centre.x, centre.y, centre.z},
@@ -132,12 +145,17 @@ public:
         const Vec3 excess{local_.excess(0, s), local_.excess(1, s), local_.excess(2, s)};
         const int outside = (excess.x != 0 ? 1 : 0) + (excess.y != 0 ? 1 : 0) + (excess.z != 0 ? 1 : 0);
         if (outside == 0) {
-            const Face face = nearest_way_out(local_);
+            const Face face = nearest_way_out(local_, side_);
             touch_face(face, -local_.half, local_.half);
         } else if (outside == 1) {
             const int axis = excess.x != 0 ? 0 : excess.y != 0 ? 1 : 2;
             const std::int64_t value = excess.x + excess.y + excess.z;
-            touch_along_face({axis, value < 0 ? -1 : 1}, s);
+            const Face face{axis, value < 0 ? -1 : 1};
+            if (is_against(face, side_)) {
+                touch_face({axis, -face.sign}, -local_.half, local_.half);
+            } else {
+                touch_along_face(face, s);
+            }
         } else {
             fixed::NormalisedVector way{};
             fixed::normalise(excess, way);
@@ -156,7 +174,8 @@ private:
                 fixed::scale_component(c < 0 ? -c : c, local_.half) + local_.extents[axis] + piece_.radius;
             // By more than roundings could make.
             constexpr std::int64_t room = std::int64_t{1} << (world_fraction_bits - 20);
-            if ((centre < 0 ? -centre : centre) - reach > margin_ + room) {
+            if ((centre < 0 ? -centre : centre) - reach > margin_ + room &&
+                !is_against({axis, centre < 0 ? -1 : 1}, side_)) {
                 std::int32_t outward[3] = {0, 0, 0};
                 outward[axis] = centre < 0 ? -direction_one : direction_one;
                 set_normal({outward[0], outward[1], outward[2]});
@@ -219,12 +238,14 @@ private:
     std::int64_t margin_;
     Manifold& out_;
     LocalSegment local_{};
+    std::int32_t side_[3];
 };
 
 } // namespace
 
-void collide_segment_box(const Piece& segment, const Piece& box, std::int64_t margin, Manifold& out) {
-    SegmentBox(segment, box, margin, out).run();
+void collide_segment_box(const Piece& segment, const Piece& box, std::int64_t margin, const Direction& side,
+                         Manifold& out) {
+    SegmentBox(segment, box, margin, side, out).run();
 }
 
 } // namespace lks::manifold_detail

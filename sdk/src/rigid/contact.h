@@ -18,6 +18,9 @@
 
 namespace lks {
 
+// What overlaps by more than this, five millimetres, sticks in the other.
+inline constexpr std::int64_t sticking_depth = (std::int64_t{1} << world_fraction_bits) / 200;
+
 // Names a contact: the same pair of shapes has the same key from tick to tick.
 struct ContactKey {
     std::uint32_t body_a;
@@ -118,6 +121,11 @@ struct ContactMoves {
     Move& b;
 };
 
+// Whether what is pressed into the other comes out where it went in (collide/manifold.h). Two figures part
+// the shorter way: to undo all of it jams heaps of them.
+inline bool keeps_side(const Body& a, const Body& b) {
+    return !a.jointed || !b.jointed;
+}
 // How many points a contact needs room for.
 constexpr std::uint32_t point_room(bool every_substep, const Manifold& manifold) {
     return every_substep ? greatest_point_count : manifold.count;

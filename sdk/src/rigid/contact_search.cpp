@@ -92,6 +92,37 @@ bool apart(const Piece& a, const Piece& b, std::int64_t margin) {
     return d.x > room || d.x < -room || d.y > room || d.y < -room || d.z > room || d.z < -room;
 }
 
+// Where its bodies are now, with what it pushed before; `side` is the normal that it had.
+void find_points(const lks_world& world, Contact& contact, const Direction& side) {
+    const RigidScene& scene = world.rigid;
+    const Body& a = scene.bodies[contact.key.body_a];
+    const bool with_collider = contact.key.other >= other_is_collider;
+    const std::uint32_t index = contact.key.other & ~other_is_collider;
+    const Body& b = with_collider ? scene.collider_bodies[index] : scene.bodies[index];
+    const BodyDescription& description = scene.descriptions[contact.key.body_a];
+    const BodyShape& shape_a = description.shapes[contact.key.shapes / LKS_MAX_BODY_SHAPES];
+    const Piece piece_a = piece_of_body(a, shape_a, a.position);
+    const Piece piece_b =
+        with_collider
+            ? piece_of_collider(b, world.colliders[index].collider, a.position)
+            : piece_of_body(b, scene.descriptions[index].shapes[contact.key.shapes % LKS_MAX_BODY_SHAPES],
+                            a.position);
+    const auto n = static_cast<std::int64_t>(world.rate.substeps_per_second);
+    const std::int64_t radius_b = with_collider ? reach(piece_b) : scene.descriptions[index].radius;
+    const std::int64_t motion = (greatest_speed(a, description.radius) + greatest_speed(b, radius_b)) / n;
+    Manifold manifold;
+    manifold.normal = contact.normal();
+    manifold.count = 0;
+    if (!apart(piece_a, piece_b, motion + near_distance)) {
+        collide(piece_a, piece_b, motion + near_distance, keeps_side(a, b) ? side : no_side, manifold);
+    }
+    ContactPush old_pushes[greatest_point_count];
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        old_pushes[i] = contact.points[i].push;
+    }
+    take_manifold(contact, {old_pushes, contact.count}, manifold, a, b);
+}
+
 class Search {
 public:
     Search(lks_world& world, Team* team) : world_(world), scene_(world.rigid), team_(team) {}
@@ -343,11 +374,10 @@ private:
         return {collider.static_friction, collider.dynamic_friction, 0};
     }
 
-    // By more than five millimetres: whatever of it is pushed, something else of it goes in.
+    // Whatever of it is pushed, something else of it goes in.
     static bool sticks(const Manifold& manifold) {
-        constexpr std::int64_t deep = (std::int64_t{1} << world_fraction_bits) / 200;
         return std::any_of(manifold.points, manifold.points + manifold.count,
-                           [](const ManifoldPoint& point) { return point.separation < -deep; });
+                           [](const ManifoldPoint& point) { return point.separation < -sticking_depth; });
     }
 
     bool touches(const Piece& a, const Piece& b, std::int64_t motion, FoundContact& found) const {
@@ -356,7 +386,7 @@ private:
         const bool fast = motion > fixed::saturating_add(thickness(a), thickness(b));
         found.radius_a = a.radius;
         found.radius_b = b.radius;
-        collide(a, b, motion + near_distance, found.manifold);
+        collide(a, b, motion + near_distance, no_side, found.manifold);
         // Boxes beside each other show no points, and may yet meet at their edges.
         const bool unclear = fast && found.manifold.count == 0;
         drop_what_stays_apart(found.manifold, found.key, motion);
@@ -379,10 +409,10 @@ private:
         }
         scene_.contacts.push_reserved(Contact{});
         Contact& contact = scene_.contacts[scene_.contacts.size() - 1];
+        const Body& body_a = scene_.bodies[key.body_a];
         const Body& body_b = other_body(scene_, key.other);
         contact.key = key;
-        contact.shares =
-            pair_shares(scene_.bodies[key.body_a].effective_inverse_mass(), body_b.effective_inverse_mass());
+        contact.shares = pair_shares(body_a.effective_inverse_mass(), body_b.effective_inverse_mass());
         contact.radius_a = found.radius_a;
         contact.radius_b = found.radius_b;
         const Surface& own = scene_.descriptions[key.body_a].surface;
@@ -390,18 +420,24 @@ private:
         contact.static_friction = combined_friction(own.static_friction, other.static_friction);
         contact.dynamic_friction = combined_friction(own.dynamic_friction, other.dynamic_friction);
         contact.restitution = std::max(own.restitution, other.restitution);
-        contact.every_substep = found.every_substep;
-        const std::size_t first_point = scene_.contact_points.size();
-        // Within its room.
-        static_cast<void>(
-            scene_.contact_points.resize(first_point + point_room(found.every_substep, found.manifold)));
-        contact.points = scene_.contact_points.begin() + first_point;
         std::span<const ContactPush> old_pushes;
+        Direction side = no_side;
         if (known) {
             const ContactMemory& memory = scene_.memories[next_memory_];
             old_pushes = {memory.pushes, memory.count};
+            side = keeps_side(body_a, body_b) ? memory.normal : no_side;
         }
-        take_manifold(contact, old_pushes, found.manifold, scene_.bodies[key.body_a], body_b);
+        const bool passed = against(found.manifold.normal, side);
+        contact.every_substep = found.every_substep || passed;
+        const std::size_t first_point = scene_.contact_points.size();
+        // Within its room.
+        static_cast<void>(
+            scene_.contact_points.resize(first_point + point_room(contact.every_substep, found.manifold)));
+        contact.points = scene_.contact_points.begin() + first_point;
+        take_manifold(contact, old_pushes, found.manifold, body_a, body_b);
+        if (passed) {
+            find_points(world_, contact, side);
+        }
     }
 
     // Wakes a sleeping body that this one is about to touch. True: the contact is of no use (yet). What lies
@@ -496,33 +532,7 @@ void find_contacts(lks_world& world, Team* team) {
 }
 
 void find_points_again(const lks_world& world, Contact& contact) {
-    const RigidScene& scene = world.rigid;
-    const Body& a = scene.bodies[contact.key.body_a];
-    const bool with_collider = contact.key.other >= other_is_collider;
-    const std::uint32_t index = contact.key.other & ~other_is_collider;
-    const Body& b = with_collider ? scene.collider_bodies[index] : scene.bodies[index];
-    const BodyDescription& description = scene.descriptions[contact.key.body_a];
-    const BodyShape& shape_a = description.shapes[contact.key.shapes / LKS_MAX_BODY_SHAPES];
-    const Piece piece_a = piece_of_body(a, shape_a, a.position);
-    const Piece piece_b =
-        with_collider
-            ? piece_of_collider(b, world.colliders[index].collider, a.position)
-            : piece_of_body(b, scene.descriptions[index].shapes[contact.key.shapes % LKS_MAX_BODY_SHAPES],
-                            a.position);
-    const auto n = static_cast<std::int64_t>(world.rate.substeps_per_second);
-    const std::int64_t radius_b = with_collider ? reach(piece_b) : scene.descriptions[index].radius;
-    const std::int64_t motion = (greatest_speed(a, description.radius) + greatest_speed(b, radius_b)) / n;
-    Manifold manifold;
-    manifold.normal = contact.normal();
-    manifold.count = 0;
-    if (!apart(piece_a, piece_b, motion + near_distance)) {
-        collide(piece_a, piece_b, motion + near_distance, manifold);
-    }
-    ContactPush old_pushes[greatest_point_count];
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        old_pushes[i] = contact.points[i].push;
-    }
-    take_manifold(contact, {old_pushes, contact.count}, manifold, a, b);
+    find_points(world, contact, contact.count == 0 ? no_side : contact.normal());
 }
 
 } // namespace lks

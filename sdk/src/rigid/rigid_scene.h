@@ -23,6 +23,8 @@ namespace lks {
 struct ContactMemory {
     ContactKey key;
     std::uint32_t count;
+    fixed::Direction normal; // of its last substep
+    std::uint32_t reserved;  // 0
     ContactPush pushes[greatest_point_count];
 };
 

@@ -214,9 +214,13 @@ private:
     void remember(const Contact& contact) {
         ContactMemory memory{};
         memory.key = contact.key;
+        memory.normal = contact.normal();
+        const bool may_stick =
+            keeps_side(scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other));
         for (std::uint32_t i = 0; i < contact.count; ++i) {
-            if (contact.points[i].push.normal != 0) {
-                memory.pushes[memory.count++] = contact.points[i].push;
+            const ContactPoint& point = contact.points[i];
+            if (point.push.normal != 0 || (may_stick && point.separation < -sticking_depth)) {
+                memory.pushes[memory.count++] = point.push;
             }
         }
         if (memory.count != 0) {

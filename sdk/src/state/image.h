@@ -18,7 +18,7 @@
 namespace lks {
 
 inline constexpr std::uint64_t image_magic = 0x3165746174736b4c; // "Lkstate1" as bytes
-inline constexpr std::uint32_t image_version = 5;
+inline constexpr std::uint32_t image_version = 6;
 
 struct ImageHeader {
     std::uint64_t magic;

@@ -23,6 +23,11 @@ bool is_unit(const unsigned char* at) {
     return within(squared, unit_room);
 }
 
+// The same of a direction.
+bool is_direction(const fixed::Direction& d) {
+    return lks::within(from_vec3({d.x, d.y, d.z}), direction_one);
+}
+
 // What a shape has not got is zero.
 bool is_plain(const lks_body_shape& s) {
     const bool round = s.shape != LKS_SHAPE_BOX;
@@ -102,7 +107,8 @@ bool RigidChecks::joint(const unsigned char* at, const fixed::Rotation& known_ta
     return target == known_target || fixed::normalise(target) == target;
 }
 
-bool RigidChecks::contact(const ContactKey& key, std::uint32_t count, const Array<Loaded>& bodies) {
+bool RigidChecks::contact(const ContactMemory& memory, const Array<Loaded>& bodies) {
+    const ContactKey& key = memory.key;
     const auto exists = [&bodies](std::uint32_t body) {
         return body < bodies.size() && bodies[body] != Loaded::nothing;
     };
@@ -110,7 +116,8 @@ bool RigidChecks::contact(const ContactKey& key, std::uint32_t count, const Arra
                                   ? (key.other & ~other_is_collider) < LKS_MAX_COLLIDERS
                                   : key.other > key.body_a && exists(key.other);
     return exists(key.body_a) && other_exists && key.shapes < LKS_MAX_BODY_SHAPES * LKS_MAX_BODY_SHAPES &&
-           count >= 1 && count <= greatest_point_count;
+           memory.count >= 1 && memory.count <= greatest_point_count && is_direction(memory.normal) &&
+           memory.reserved == 0;
 }
 
 bool RigidChecks::pushes(const unsigned char* at, std::uint32_t count) const {

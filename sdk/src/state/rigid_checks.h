@@ -20,7 +20,7 @@ public:
     bool body(const unsigned char* at) const;
     bool joint(const unsigned char* at, const fixed::Rotation& known_target) const;
     // Between a body and a later one, both there, or a collider.
-    static bool contact(const ContactKey& key, std::uint32_t count, const Array<Loaded>& bodies);
+    static bool contact(const ContactMemory& memory, const Array<Loaded>& bodies);
     // So many of a ContactPush.
     bool pushes(const unsigned char* at, std::uint32_t count) const;
 

@@ -156,12 +156,22 @@ void record_fields(Io& io, ContactPush& push) {
     io.i64(push.across[1]);
 }
 
-template <typename Io>
-void record_fields(Io& io, ContactMemory& memory) {
+// All of it but what it pushed.
+template <typename Io, typename Memory>
+void contact_fields(Io& io, Memory& memory) {
     io.u32(memory.key.body_a);
     io.u32(memory.key.other);
     io.u32(memory.key.shapes);
     io.u32(memory.count);
+    io.i32(memory.normal.x);
+    io.i32(memory.normal.y);
+    io.i32(memory.normal.z);
+    io.u32(memory.reserved);
+}
+
+template <typename Io>
+void record_fields(Io& io, ContactMemory& memory) {
+    contact_fields(io, memory);
     for (ContactPush& push : memory.pushes) {
         record_fields(io, push);
     }

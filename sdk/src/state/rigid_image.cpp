@@ -20,7 +20,7 @@ constexpr std::size_t prefetched = 4;
 constexpr std::size_t prefetched_size = 8 + sizeof(BodySettings) + sizeof(lks_body_shape);
 constexpr std::size_t joint_size = sizeof(JointDescription) + sizeof(JointState);
 std::size_t contact_size(const ContactMemory& memory) {
-    return 16 + memory.count * sizeof(ContactPush);
+    return offsetof(ContactMemory, pushes) + memory.count * sizeof(ContactPush);
 }
 
 void write_slot(ByteWriter& out, const Slot& slot) {
@@ -127,25 +127,21 @@ public:
 
     // It is read at once, into what only a tick needs.
     bool check_contact(const RigidChecks& checks, std::uint32_t index) {
-        ContactKey key{};
-        key.body_a = in_.u32();
-        key.other = in_.u32();
-        key.shapes = in_.u32();
-        const std::uint32_t count = in_.u32();
-        if (!RigidChecks::contact(key, count, scene_.loaded_bodies)) {
+        ContactMemory* memories = scene_.next_memories.data();
+        ContactMemory& memory = memories[index];
+        Reading reading(in_);
+        contact_fields(reading, memory);
+        if (!RigidChecks::contact(memory, scene_.loaded_bodies)) {
             return false;
         }
+        const std::uint32_t count = memory.count;
         const unsigned char* pushes = in_.block(count * sizeof(ContactPush));
         if (pushes == nullptr || !checks.pushes(pushes, count)) {
             return false;
         }
-        ContactMemory* memories = scene_.next_memories.data();
-        if (index > 0 && !(memories[index - 1].key < key)) {
+        if (index > 0 && !(memories[index - 1].key < memory.key)) {
             return false;
         }
-        ContactMemory& memory = memories[index];
-        memory.key = key;
-        memory.count = count;
         read_records(pushes, memory.pushes, count);
         std::memset(memory.pushes + count, 0, (greatest_point_count - count) * sizeof(ContactPush));
         return true;
@@ -270,11 +266,9 @@ void write_rigid(ByteWriter& out, const RigidScene& scene) {
             write_record<JointState>(out, scene.joints[i]);
         }
     }
+    Writing writing(out);
     for (const ContactMemory& memory : scene.memories) {
-        out.u32(memory.key.body_a);
-        out.u32(memory.key.other);
-        out.u32(memory.key.shapes);
-        out.u32(memory.count);
+        contact_fields(writing, memory);
         write_records(out, memory.pushes, memory.count);
     }
 }

@@ -1,0 +1,66 @@
+// Figures that are thrown at a thin wall, or struck by one: joints draw after the rest what a contact has
+// stopped, so that bones are in the wall for some substeps, and have to come out where they went in.
+#include <doctest/doctest.h>
+
+#include <random>
+
+#include "support/bodies.h"
+
+using namespace support;
+
+namespace {
+
+constexpr double half_thickness = 0.025;
+
+enum class Wall { fixed, loose, moved };
+
+// How many bones are beyond the wall, or in its further half, a second later.
+int bones_behind(Wall kind, double speed, const lks_rotation& rotation) {
+    World world(world_def(60, 8));
+    REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
+    lks_body_id wall{};
+    if (kind == Wall::fixed) {
+        add_box(world, fixed(half_thickness, 10, 10), fixed(3, 0, 0));
+    } else {
+        lks_body_def def = lks_default_body_def();
+        def.kind = kind == Wall::moved ? LKS_BODY_KINEMATIC : LKS_BODY_DYNAMIC;
+        wall = add_body(world, box_shape(half_thickness, 10, 10, 100000), fixed(3, 0, 0), def);
+    }
+    Humanoid human;
+    human.def.transform.rotation = rotation;
+    human.def.velocity = kind == Wall::moved ? lks_vec3{} : fixed(speed, 0, 0);
+    lks_body_id bodies[LKS_HUMANOID_BONES];
+    lks_joint_id joints[LKS_HUMANOID_BONES - 1];
+    REQUIRE(human.add(world, bodies, joints) == LKS_OK);
+    for (int tick = 1; tick <= 60; ++tick) {
+        if (kind == Wall::moved) {
+            const lks_transform target{fixed(3 - speed * tick / 60, 0, 0), {0, 0, 0, LKS_ROTATION_ONE}};
+            REQUIRE(lks_body_move_to(world, wall, target) == LKS_OK);
+        }
+        world.step();
+    }
+    const double middle = kind == Wall::fixed ? 3 : state_of(world, wall).position.x;
+    int count = 0;
+    for (const lks_body_id body : bodies) {
+        count += state_of(world, body).position.x > middle ? 1 : 0;
+    }
+    return count;
+}
+
+} // namespace
+
+TEST_CASE("no bone of a figure passes a wall of five centimetres, however fast they meet") {
+    for (const Wall kind : {Wall::fixed, Wall::loose, Wall::moved}) {
+        for (const double speed : {30.0, 60.0}) {
+            std::mt19937 random(3);
+            std::uniform_real_distribution<double> part(-1, 1);
+            int behind = 0;
+            for (int i = 0; i < 40; ++i) {
+                const double axis[3] = {part(random), part(random), part(random)};
+                behind += bones_behind(kind, speed, about(axis[0], axis[1], axis[2], 180 * part(random)));
+            }
+            INFO("wall " << static_cast<int>(kind) << " at " << speed << " m/s");
+            CHECK(behind == 0);
+        }
+    }
+}
