@@ -23,9 +23,10 @@ bool is_unit(const unsigned char* at) {
     return within(squared, unit_room);
 }
 
-// The same of a direction.
+// Of a normal, with room for roundings.
 bool is_direction(const fixed::Direction& d) {
-    return lks::within(from_vec3({d.x, d.y, d.z}), direction_one);
+    constexpr std::int32_t longest = direction_one + (direction_one >> 16);
+    return lks::within(d.x, longest) && lks::within(d.y, longest) && lks::within(d.z, longest);
 }
 
 // What a shape has not got is zero.
