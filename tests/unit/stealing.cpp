@@ -40,6 +40,7 @@ const lks::Kernels& dawdling() {
     static const lks::Kernels kernels{
         prompt().level,
         prompt().side_by_side,
+        1024, // whatever this machine makes of it: there are blocks to steal
         [](const lks::DistanceTask& task) {
             dawdle();
             prompt().project_distances(task);

@@ -17,6 +17,8 @@ struct Kernels {
     lks_simd level;
     // Whether project_distances takes objects side by side.
     bool side_by_side;
+    // How many make some microseconds of work: enough to be worth another thread's while.
+    std::uint32_t constraints_a_block;
     void (*project_distances)(const DistanceTask& task);
     PredictionClamps (*predict)(const PredictionTask& task);
     // Bit i: particle first + i may be touched; count ≤ 64.

@@ -16,6 +16,7 @@ namespace lks {
 
 constinit const Kernels kernels_avx2{LKS_SIMD_AVX2,
                                      true,
+                                     4096,
                                      leaving<LanesAvx2, project_lanes<LanesAvx2>>,
                                      leaving<LanesAvx2, predict_lanes<LanesAvx2>>,
                                      leaving<LanesAvx2, near_box_lanes<LanesAvx2>>,

@@ -34,6 +34,7 @@ void project_by_length(const DistanceTask& task) {
 
 constinit const Kernels kernels_avx512{LKS_SIMD_AVX512,
                                        true,
+                                       8192,
                                        project_by_length,
                                        leaving<LanesAvx512, predict_lanes<LanesAvx512, LanesAvx2>>,
                                        leaving<LanesAvx512, near_box_lanes<LanesAvx512>>,

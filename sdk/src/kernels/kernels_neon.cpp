@@ -14,6 +14,7 @@ namespace lks {
 
 constinit const Kernels kernels_neon{LKS_SIMD_NEON,
                                      false,
+                                     2048,
                                      project_lanes<LanesNeon>,
                                      predict_lanes<LanesNeon>,
                                      near_box_lanes<LanesNeon>,

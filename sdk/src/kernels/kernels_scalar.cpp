@@ -8,8 +8,16 @@
 
 namespace lks {
 
-constinit const Kernels kernels_scalar{
-    LKS_SIMD_SCALAR,      false,        project_scalar,  predict_scalar, near_box_scalar, near_plane_scalar,
-    beyond_tether_scalar, chain_scalar, no_tree_kernels, hash_update};
+constinit const Kernels kernels_scalar{LKS_SIMD_SCALAR,
+                                       false,
+                                       1024,
+                                       project_scalar,
+                                       predict_scalar,
+                                       near_box_scalar,
+                                       near_plane_scalar,
+                                       beyond_tether_scalar,
+                                       chain_scalar,
+                                       no_tree_kernels,
+                                       hash_update};
 
 } // namespace lks

@@ -14,6 +14,7 @@ namespace lks {
 
 constinit const Kernels kernels_sse41{LKS_SIMD_SSE41,
                                       false,
+                                      2048,
                                       project_lanes<LanesSse41>,
                                       predict_lanes<LanesSse41>,
                                       near_box_lanes<LanesSse41>,

@@ -15,6 +15,7 @@ namespace lks {
 
 constinit const Kernels kernels_wasm{LKS_SIMD_WASM,
                                      false,
+                                     2048,
                                      project_lanes<TwiceLanes<LanesWasm>>,
                                      predict_lanes<LanesWasm>,
                                      near_box_lanes<LanesWasm>,

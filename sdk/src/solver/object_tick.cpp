@@ -184,7 +184,7 @@ private:
 
     void project_in_blocks(const DistanceTask& task, std::uint32_t batch) {
         const BatchPart& whole = scratch_.distances.parts[batch];
-        in_blocks(asset_.batches[batch].count, constraints_a_block,
+        in_blocks(asset_.batches[batch].count, world_.kernels->constraints_a_block,
                   [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
                       const std::uint32_t from = whole.range.first + first;
                       const BatchPart part = part_of_batch(whole, asset_, batch, {from, from + count});
@@ -284,8 +284,7 @@ private:
                 object_.start_axis(0), object_.start_axis(1), object_.start_axis(2)};
     }
 
-    // Some microseconds of work: enough to be worth another thread's while.
-    static constexpr std::uint32_t constraints_a_block = 1024;
+    // As Kernels::constraints_a_block.
     static constexpr std::uint32_t particles_a_block = 2048;
     // More would even out the last blocks of a phase better, and cost more taking.
     static constexpr std::uint32_t blocks_a_worker = 2;

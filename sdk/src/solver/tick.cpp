@@ -26,13 +26,12 @@ std::uint64_t weight(const Object& object) {
     return std::uint64_t{object.asset().constraint_count()} + object.count();
 }
 
-// From here on the blocks of one object's phases outweigh the stages between them.
-constexpr std::uint64_t large_weight = 16384;
 // Projections and particles a tick from which on it is worth waking others: some 50 microseconds of work.
 constexpr std::uint64_t worth_waking = 30000;
 
-bool is_large(const Object& object) {
-    return weight(object) >= large_weight;
+// Whether the blocks of its phases outweigh the stages between them.
+bool is_large(const lks_world& world, const Object& object) {
+    return weight(object) >= std::uint64_t{16} * world.kernels->constraints_a_block;
 }
 
 // Coupled ones go with the bodies.
@@ -78,7 +77,7 @@ void run_objects_by_team(lks_world& world, Team& team) {
         Neighbours neighbours(*c.world.kernels, run);
         const std::size_t end = std::min(c.world.objects.size(), (block + 1) * c.size);
         for (std::size_t i = block * c.size; i < end; ++i) {
-            if (runs_alone(c.world, i) && !is_large(*c.world.objects[i].object)) {
+            if (runs_alone(c.world, i) && !is_large(c.world, *c.world.objects[i].object)) {
                 neighbours.add(*c.world.objects[i].object);
             }
         }
@@ -86,7 +85,7 @@ void run_objects_by_team(lks_world& world, Team& team) {
     };
     team.run({run_block, &context, static_cast<std::uint32_t>((count + context.size - 1) / context.size)});
     for (std::size_t i = 0; i < world.objects.size(); ++i) {
-        if (runs_alone(world, i) && is_large(*world.objects[i].object)) {
+        if (runs_alone(world, i) && is_large(world, *world.objects[i].object)) {
             run_object_tick(world, *world.objects[i].object, world.scratch[0], &team);
         }
     }
@@ -99,7 +98,7 @@ bool objects_need_team(const lks_world& world) {
     for (std::size_t i = 0; i < world.objects.size(); ++i) {
         if (runs_alone(world, i)) {
             total += weight(*world.objects[i].object);
-            large = large || is_large(*world.objects[i].object);
+            large = large || is_large(world, *world.objects[i].object);
             ++count;
         }
     }
