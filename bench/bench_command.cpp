@@ -86,7 +86,8 @@ void print(const Results& results, std::size_t from) {
 
 // False, with a sentence: it can't be measured here.
 bool measure(const std::string& part, const BenchOptions& options, Results& results, std::string& error) {
-    const int rounds = static_cast<int>(options.rounds);
+    constexpr int usual = 21;
+    const int rounds = options.rounds != 0 ? static_cast<int>(options.rounds) : usual;
     if (part == snapshots_name) {
         measure_snapshots(rounds, results);
     } else if (part == overhead_name) {
@@ -108,7 +109,7 @@ bool measure(const std::string& part, const BenchOptions& options, Results& resu
     } else if (part == instructions_name) {
         return count_instructions(options.program, results, error);
     } else {
-        measure_workload(*find_workload(part), rounds, results);
+        measure_workload(*find_workload(part), rounds, options.rounds == 0, results);
     }
     return true;
 }

@@ -10,7 +10,7 @@ namespace lks_bench {
 
 struct BenchOptions {
     std::vector<std::string> parts; // workloads and sections; empty: the workloads, snapshots and overhead
-    std::uint32_t rounds = 21;
+    std::uint32_t rounds = 0;       // 0: 21, and fewer of what is long
     bool list = false;
     bool json = false;
     std::string report; // a folder; empty: none

@@ -1,4 +1,4 @@
-#include <map>
+#include <algorithm>
 
 #include "measure.h"
 #include "memory_count.h"
@@ -37,11 +37,14 @@ void measure_threads(const Workload& workload, double units, int rounds, Results
 
 } // namespace
 
-void measure_workload(const Workload& workload, int rounds, Results& results) {
+void measure_workload(const Workload& workload, int rounds, bool thrifty, Results& results) {
     const WorkloadAsset asset(workload);
     const std::uint64_t constraints =
         std::uint64_t{lks_asset_constraint_count(asset.get())} * workload.objects;
     const double units = projections_per_tick(workload, constraints);
+    if (thrifty) {
+        rounds = std::clamp(static_cast<int>(4e7 / units), 5, rounds);
+    }
     std::vector<std::unique_ptr<Variant>> variants;
     std::vector<Contender> projections;
     std::vector<Contender> ticks;

@@ -17,7 +17,8 @@ inline constexpr const char* accuracy_name = "accuracy";
 
 // Nanoseconds a projection by itself, the same within a tick, with two workers, and milliseconds a tick;
 // bytes a particle and a constraint; the share of constraints in runs.
-void measure_workload(const Workload& workload, int rounds, Results& results);
+// `thrifty`: fewer rounds where each is long.
+void measure_workload(const Workload& workload, int rounds, bool thrifty, Results& results);
 // Save, load and hash of a 256² cloth beside memcpy, GB/s.
 void measure_snapshots(int rounds, Results& results);
 // A tick in which there is next to nothing to do: of an empty world, and what one more object costs.
