@@ -59,7 +59,11 @@ public:
         }
         for (std::uint32_t i = 0; i + 1 < build.bodies(); ++i) {
             scene.joint_slots.push_reserved({1, true});
-            scene.joints.push_reserved(any_joint(random, build, i, static_cast<std::uint32_t>(first)));
+            Joint joint = any_joint(random, build, i, static_cast<std::uint32_t>(first));
+            const JointDescription& d = joint.description;
+            joint.constants.arm_a = swing_arm(scene.bodies[d.body_a], d.point_a);
+            joint.constants.arm_b = swing_arm(scene.bodies[d.body_b], d.point_b);
+            scene.joints.push_reserved(joint);
         }
     }
 
@@ -118,8 +122,6 @@ private:
         d.point_a = any_point(random, build.scales[child_is_a ? child : parent]);
         d.point_b = any_point(random, build.scales[child_is_a ? parent : child]);
         joint.constants.shares = {static_cast<std::int32_t>(random.below(direction_one)), direction_one};
-        joint.constants.arm_a = any_arm(random);
-        joint.constants.arm_b = any_arm(random);
         joint.constants.axis_a = joint.constants.axis_b = {0, direction_one, 0};
         // Some limits are exceeded, and undone in several rounds.
         joint.constants.swing_limited = random.below(4) == 0;
@@ -134,11 +136,6 @@ private:
 
     static Vec3 any_vector(test::Random& random, int width) {
         return {random.any_signed(width), random.any_signed(width), random.any_signed(width)};
-    }
-
-    static SwingArm any_arm(test::Random& random) {
-        return {static_cast<std::int64_t>(random.any_magnitude(43)),
-                static_cast<std::int64_t>(random.any_magnitude(31))};
     }
 
     // Up to six units out.

@@ -137,6 +137,9 @@ struct Joint : JointState {
     BlockInverse turn_inverse; // of hinges and fixed joints
 };
 
+// Of a pull at this point, in the body's axes.
+SwingArm swing_arm(const Body& body, const fixed::Vec3& point);
+
 // The definition that a description came from, without bodies and points.
 lks_joint_def define_joint(const JointDescription& description);
 JointConstants make_joint_constants(const JointDescription& description, const Body& a, const Body& b,

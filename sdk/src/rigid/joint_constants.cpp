@@ -28,17 +28,6 @@ Direction frame_axis(const fixed::Rotation& frame, int axis) {
     return {m.m[0][axis], m.m[1][axis], m.m[2][axis]};
 }
 
-SwingArm swing_arm(const Body& body, const fixed::Vec3& point) {
-    fixed::NormalisedVector lever{};
-    if (!fixed::normalise(point, lever)) {
-        return {0, 0};
-    }
-    const SymmetricMatrix& m = body.inverse_inertia;
-    const Direction& d = lever.direction;
-    const std::int64_t along = fixed::dot(d, multiply(m, fixed::Vec3{d.x, d.y, d.z}));
-    return {in_units(body, lever.length), std::int64_t{m.xx} + m.yy + m.zz - along};
-}
-
 void set_swing(JointConstants& c, const JointDescription& d) {
     const std::int64_t z = d.swing_limit_z < 0 ? d.swing_limit : d.swing_limit_z;
     c.swing_limited = d.kind == LKS_JOINT_BALL && std::min(d.swing_limit, z) < half_circle_degrees;
@@ -107,6 +96,17 @@ lks_joint_def define_joint(const JointDescription& d) {
     def.break_force = d.break_force;
     def.break_torque = d.break_torque;
     return def;
+}
+
+SwingArm swing_arm(const Body& body, const fixed::Vec3& point) {
+    fixed::NormalisedVector lever{};
+    if (!fixed::normalise(point, lever)) {
+        return {0, 0};
+    }
+    const SymmetricMatrix& m = body.inverse_inertia;
+    const Direction& d = lever.direction;
+    const std::int64_t along = fixed::dot(d, multiply(m, fixed::Vec3{d.x, d.y, d.z}));
+    return {in_units(body, lever.length), std::int64_t{m.xx} + m.yy + m.zz - along};
 }
 
 JointConstants make_joint_constants(const JointDescription& d, const Body& a, const Body& b,
