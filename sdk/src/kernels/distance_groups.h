@@ -87,11 +87,8 @@ public:
         if constexpr (!L::has_shift_each) {
             group.in_octave = !leaves(octave_.leaves(high_u));
         }
-        if constexpr (damped) {
-            group.plain = !group.in_octave && leaves(L::set_32(0)); // u is larger than what it exceeds
-        } else {
-            group.plain = !group.in_octave && leaves(L::equal_32(high_u, L::set_32(0)));
-        }
+        // Where there is damping u is larger than the motion's magnitude, and not zero.
+        group.plain = !group.in_octave && leaves(damped ? L::set_32(0) : L::equal_32(high_u, L::set_32(0)));
     }
 
     // Of n groups at once.

@@ -48,12 +48,12 @@ private:
         before_->apart = false;
     }
 
-    // A group and those that follow it in its run, until one is to move apart. There is no call among them:
-    // compilers would keep in memory what lives longer than a call.
+    // A group and those that follow it in its run, until one is to move apart, or is not of the octave.
     template <typename Runs>
     LKS_FORCE_INLINE void roll_through(Runs& runs) {
         in_octave_ ? roll_through<true>(runs) : roll_through<false>(runs);
     }
+    // There is no call among them: compilers would keep in memory what lives longer than a call.
     template <bool in_octave, typename Runs>
     LKS_NEVER_INLINE void roll_through(Runs& runs) {
         if (before_->apart) {

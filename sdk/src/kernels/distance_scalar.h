@@ -26,9 +26,22 @@ inline std::int64_t shift_right_rounded_any(std::int64_t value, int shift) {
     return (value >> shift) + ((value >> (shift - 1)) & 1);
 }
 
+struct Difference {
+    std::int64_t x, y, z;
+};
+
+// Of two particles.
+LKS_FORCE_INLINE Difference difference(const std::int64_t* x, const std::int64_t* y, const std::int64_t* z,
+                                       std::ptrdiff_t a, std::ptrdiff_t b) {
+    x = as_it_stands(x);
+    y = as_it_stands(y);
+    z = as_it_stands(z);
+    return {wrapping_subtract(x[a], x[b]), wrapping_subtract(y[a], y[b]), wrapping_subtract(z[a], z[b])};
+}
+
 // All within [-2^30, 2^30).
-inline bool fit_differences(std::int64_t x, std::int64_t y, std::int64_t z) {
-    return static_cast<std::uint64_t>((x + direction_one) | (y + direction_one) | (z + direction_one)) <
+inline bool fit_differences(const Difference& d) {
+    return static_cast<std::uint64_t>((d.x + direction_one) | (d.y + direction_one) | (d.z + direction_one)) <
            2 * std::uint64_t{direction_one};
 }
 
@@ -37,10 +50,6 @@ inline std::int64_t shift_either_way(std::int64_t value, int left) {
     return left >= 0 ? static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << left)
                      : shift_right_rounded(value, -left);
 }
-
-struct Difference {
-    std::int64_t x, y, z;
-};
 
 // The difference of two positions in 32-bit units of 2^(shift + extra) coordinate units.
 struct NarrowDifference {
@@ -91,13 +100,9 @@ public:
           gain_rounding_(std::int64_t{1} << (task.parameters.gain_shift - 1)), arrays_(task.arrays) {}
 
     LKS_FORCE_INLINE void operator()(std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b) const {
-        const Difference wide = difference(a, b);
-        const int shift = parameters_.difference_shift;
-        const std::int64_t x = wrapping_add(wide.x, difference_rounding_) >> shift;
-        const std::int64_t y = wrapping_add(wide.y, difference_rounding_) >> shift;
-        const std::int64_t z = wrapping_add(wide.z, difference_rounding_) >> shift;
-        if (fit_differences(x, y, z)) {
-            project<false>(constraint, a, b, NarrowDifference{x, y, z, 0});
+        const Difference near = narrow_near(difference(a, b));
+        if (fit_differences(near)) {
+            project<false>(constraint, a, b, NarrowDifference{near.x, near.y, near.z, 0});
         } else {
             project_far(constraint, a, b);
         }
@@ -105,10 +110,14 @@ public:
 
 private:
     LKS_FORCE_INLINE Difference difference(std::ptrdiff_t a, std::ptrdiff_t b) const {
-        const std::int64_t* x = as_it_stands(arrays_.x);
-        const std::int64_t* y = as_it_stands(arrays_.y);
-        const std::int64_t* z = as_it_stands(arrays_.z);
-        return {wrapping_subtract(x[a], x[b]), wrapping_subtract(y[a], y[b]), wrapping_subtract(z[a], z[b])};
+        return lks::difference(arrays_.x, arrays_.y, arrays_.z, a, b);
+    }
+    // In units; what is far does not fit afterwards either.
+    LKS_FORCE_INLINE Difference narrow_near(const Difference& wide) const {
+        const auto narrow = [&](std::int64_t d) {
+            return wrapping_add(d, difference_rounding_) >> parameters_.difference_shift;
+        };
+        return {narrow(wide.x), narrow(wide.y), narrow(wide.z)};
     }
 
     // By itself, so that what nearly all edges take has no shifts that it doesn't need.
@@ -184,21 +193,15 @@ private:
 
     // In units of 2^(difference_shift + extra), within ±2^30.
     LKS_FORCE_INLINE Difference start_difference(std::ptrdiff_t a, std::ptrdiff_t b, int extra) const {
-        const std::int64_t* x = as_it_stands(arrays_.start_x);
-        const std::int64_t* y = as_it_stands(arrays_.start_y);
-        const std::int64_t* z = as_it_stands(arrays_.start_z);
-        const Difference wide{wrapping_subtract(x[a], x[b]), wrapping_subtract(y[a], y[b]),
-                              wrapping_subtract(z[a], z[b])};
-        const int shift = parameters_.difference_shift;
-        const Difference near{wrapping_add(wide.x, difference_rounding_) >> shift,
-                              wrapping_add(wide.y, difference_rounding_) >> shift,
-                              wrapping_add(wide.z, difference_rounding_) >> shift};
-        if (extra == 0 && fit_differences(near.x, near.y, near.z)) {
+        const Difference wide = lks::difference(arrays_.start_x, arrays_.start_y, arrays_.start_z, a, b);
+        const Difference near = narrow_near(wide);
+        if (extra == 0 && fit_differences(near)) {
             return near;
         }
         const auto narrow = [&](std::int64_t difference) {
-            return std::clamp<std::int64_t>(shift_right_rounded_any(difference, shift + extra),
-                                            -direction_one, direction_one - 1);
+            return std::clamp<std::int64_t>(
+                shift_right_rounded_any(difference, parameters_.difference_shift + extra), -direction_one,
+                direction_one - 1);
         };
         return {narrow(wide.x), narrow(wide.y), narrow(wide.z)};
     }

@@ -1,8 +1,6 @@
 // Lengths of edges over lanes, and how far they are from their rest lengths.
 #pragma once
 
-#include <type_traits>
-
 #include "fixed/formats.h"
 #include "kernels/factors.h"
 #include "kernels/reciprocal_sqrt_lanes.h"

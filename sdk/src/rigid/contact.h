@@ -126,6 +126,7 @@ struct ContactMoves {
 inline bool keeps_side(const Body& a, const Body& b) {
     return !a.jointed || !b.jointed;
 }
+
 // How many points a contact needs room for.
 constexpr std::uint32_t point_room(bool every_substep, const Manifold& manifold) {
     return every_substep ? greatest_point_count : manifold.count;

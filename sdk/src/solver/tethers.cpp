@@ -90,7 +90,7 @@ private:
             const std::uint64_t scaled = (std::uint64_t{length} * scale) >> scale_bits;
             length = static_cast<std::uint32_t>(std::min<std::uint64_t>(scaled + 1, no_tether));
         }
-        if (fit_differences(wide.x, wide.y, wide.z) || length == no_tether) {
+        if (fit_differences(wide) || length == no_tether) {
             return; // nearer than any tether is long
         }
         const NarrowDifference d = narrow_far(wide, 0);
