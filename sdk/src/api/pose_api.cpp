@@ -6,6 +6,7 @@
 #include "api/body_checks.h"
 #include "api/joint_checks.h"
 #include "api/ragdoll_checks.h"
+#include "api/ragdoll_scale.h"
 #include "collide/saturation.h"
 #include "rigid/body_motion.h"
 #include "rigid/make_body.h"
@@ -70,11 +71,8 @@ lks_rotation motor_target(const JointDescription& d, const lks_rotation& parent,
 }
 
 lks_fixed scaled_torque(const lks_bone& bone, const lks_ragdoll_def& def, lks_fixed strength) {
-    lks_fixed torque = fixed::multiply_divide(bone.motor_torque, strength, LKS_FIXED_ONE);
-    for (int i = 0; i < 4; ++i) {
-        torque = fixed::multiply_divide(torque, def.scale, LKS_FIXED_ONE);
-    }
-    return std::min(torque, LKS_FIXED(1000000));
+    const lks_fixed torque = fixed::multiply_divide(bone.motor_torque, strength, LKS_FIXED_ONE);
+    return std::min(scaled(torque, def.scale, 4), LKS_FIXED(1000000));
 }
 
 // False: the game says that it has broken.

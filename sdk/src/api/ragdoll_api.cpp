@@ -6,6 +6,7 @@
 #include "api/body_checks.h"
 #include "api/joint_checks.h"
 #include "api/ragdoll_checks.h"
+#include "api/ragdoll_scale.h"
 #include "fixed/formats.h"
 
 using namespace lks;
@@ -13,13 +14,7 @@ using namespace lks;
 namespace {
 
 fixed::Vec3 scaled(const lks_vec3& v, lks_fixed scale) {
-    return {fixed::multiply_divide(v.x, scale, LKS_FIXED_ONE),
-            fixed::multiply_divide(v.y, scale, LKS_FIXED_ONE),
-            fixed::multiply_divide(v.z, scale, LKS_FIXED_ONE)};
-}
-
-lks_fixed scaled(lks_fixed value, lks_fixed scale) {
-    return fixed::multiply_divide(value, scale, LKS_FIXED_ONE);
+    return {lks::scaled(v.x, scale), lks::scaled(v.y, scale), lks::scaled(v.z, scale)};
 }
 
 // The ragdoll's frame in the world.
@@ -50,12 +45,12 @@ lks_body_def make_body_def(const lks_ragdoll_def& def, const lks_bone& bone, con
         lks_body_shape& shape = shapes[i];
         shape = bone.body.shapes[i];
         shape.transform.position = from_vec3(scaled(shape.transform.position, def.scale));
-        shape.radius = scaled(shape.radius, def.scale);
-        shape.half_length = scaled(shape.half_length, def.scale);
+        shape.radius = lks::scaled(shape.radius, def.scale);
+        shape.half_length = lks::scaled(shape.half_length, def.scale);
         shape.half_extents = from_vec3(scaled(shape.half_extents, def.scale));
     }
     body.shapes = shapes;
-    body.mass = scaled(scaled(scaled(body.mass, def.scale), def.scale), def.scale);
+    body.mass = lks::scaled(body.mass, def.scale, 3);
     body.transform = placement.place(bone.body.transform);
     body.velocity = def.velocity;
     body.angular_velocity = {0, 0, 0};
@@ -80,10 +75,7 @@ lks_fixed scaled_strength(lks_fixed strength, lks_fixed scale, int power) {
     if (strength == 0) {
         return 0;
     }
-    for (int i = 0; i < power; ++i) {
-        strength = scaled(strength, scale);
-    }
-    return std::clamp<lks_fixed>(strength, 1, greatest_break_strength);
+    return std::clamp<lks_fixed>(lks::scaled(strength, scale, power), 1, greatest_break_strength);
 }
 
 // Of a bone that has a parent, without its bodies.
