@@ -28,6 +28,7 @@ const Row* best_within(const Experiment& experiment, const std::string& solver, 
     const Row* best = nullptr;
     for (const Row& row : experiment.rows) {
         if (row.solver == solver && row.passes() <= passes &&
+            std::isfinite(row.errors[experiment.main_quantity]) &&
             (best == nullptr || worst_seen(experiment, row) < worst_seen(experiment, *best))) {
             best = &row;
         }

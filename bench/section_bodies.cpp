@@ -1,10 +1,9 @@
 #include <lockstitch/lockstitch.h>
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 
+#include "demand.h"
 #include "measure.h"
 #include "sections.h"
 
@@ -19,11 +18,14 @@ public:
     explicit Balls(std::uint32_t count) {
         lks_world_def def = lks_default_world_def();
         def.substeps = 1;
-        require(lks_world_create(&def, &world_));
+        lks_error error{};
+        def.error = &error;
+        demand(lks_world_create(&def, &world_), "a world", error.message);
         lks_collider_def ground = lks_default_collider_def();
         ground.shape = LKS_SHAPE_PLANE;
         lks_collider_id plane{};
-        require(lks_world_add_collider(world_, &ground, &plane));
+        demand(lks_world_add_collider(world_, &ground, &plane), "the ground",
+               lks_world_last_error(world_)->message);
         lks_body_shape shape = lks_default_body_shape();
         shape.radius = LKS_FIXED_RATIO(1, 5);
         lks_body_def ball = lks_default_body_def();
@@ -35,7 +37,7 @@ public:
             ball.transform.position = {LKS_FIXED_RATIO(2 * (i % edge), 5), shape.radius,
                                        LKS_FIXED_RATIO(2 * (i / edge), 5)};
             lks_body_id id{};
-            require(lks_world_add_body(world_, &ball, &id));
+            demand(lks_world_add_body(world_, &ball, &id), "a ball", lks_world_last_error(world_)->message);
         }
         for (int tick = 0; tick < 3; ++tick) {
             run();
@@ -48,14 +50,6 @@ public:
     void run() const { lks_world_step(world_); }
 
 private:
-    void require(lks_result result) const {
-        if (result != LKS_OK) {
-            std::fprintf(stderr, "lockstitch bench: %s: %s\n", bodies_name,
-                         world_ != nullptr ? lks_world_last_error(world_)->message : lks_result_text(result));
-            std::exit(1);
-        }
-    }
-
     lks_world* world_ = nullptr;
 };
 

@@ -1,19 +1,10 @@
 #include "workloads.h"
 
-#include <cstdio>
-#include <cstdlib>
-
+#include "demand.h"
 #include "mesh_shape.h"
 
 namespace lks_bench {
 namespace {
-
-void demand(lks_result result, const char* what, const char* message) {
-    if (result != LKS_OK) {
-        std::fprintf(stderr, "lockstitch: the benchmark can't make %s: %s\n", what, message);
-        std::exit(1);
-    }
-}
 
 void add_colliders(lks_world* world) {
     const auto tenths = [](int count) { return LKS_FIXED_RATIO(count, 10); };

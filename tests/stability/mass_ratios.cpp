@@ -65,8 +65,7 @@ void swing_joints(std::uint32_t links, double ratio, std::uint32_t substeps, dou
     Jointed scene(world_def(60, substeps));
     scene.add_chain(links, ratio);
     const JointCourse course = run(scene, 300);
-    const std::string name =
-        named(links, " links jointed, ", ratio_name(ratio), " at the end, ", substeps, " substeps");
+    const std::string name = joints_name(links, ratio, substeps);
     expect_at_most(name, "joints apart, worst", "mm", gap, 1000 * course.gap.fixed, 1000 * course.gap.single);
     expect_at_most(name, "energy gained, of the greatest motion", "%", 0.1, 100 * course.gained_share.fixed,
                    100 * course.gained_share.single);
