@@ -72,4 +72,22 @@ void Recorder::record_points() {
     }
 }
 
+bool record_run(lks_demo::Scene& scene,
+                const std::function<bool(std::uint32_t tick, std::string&)>& after_tick, GoldenState& state,
+                std::string& error) {
+    Recorder recorder(scene);
+    for (std::uint32_t tick = 1; tick <= scene.info().golden_ticks; ++tick) {
+        if (!scene.step(error)) {
+            return false;
+        }
+        recorder.record_tick();
+        if (after_tick && !after_tick(tick, error)) {
+            return false;
+        }
+    }
+    recorder.record_points();
+    state = recorder.state();
+    return true;
+}
+
 } // namespace lks_golden

@@ -1,6 +1,8 @@
 // Records a scene's golden state while it runs.
 #pragma once
 
+#include <functional>
+
 #include "golden/golden_state.h"
 #include "scenes/scene.h"
 
@@ -24,5 +26,11 @@ private:
     lks_demo::Scene& scene_;
     GoldenState state_;
 };
+
+// Runs the scene through its golden ticks and records them. `after_tick` (may be empty) is called after each;
+// false from it ends the run. False, with a sentence: the scene can't be run, or `after_tick` ended it.
+bool record_run(lks_demo::Scene& scene,
+                const std::function<bool(std::uint32_t tick, std::string&)>& after_tick, GoldenState& state,
+                std::string& error);
 
 } // namespace lks_golden

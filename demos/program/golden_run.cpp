@@ -27,21 +27,15 @@ bool run_golden(const std::string& name, const lks_demo::SceneOptions& options,
     }
     const lks_demo::SceneInfo& info = scene->info();
     Progress progress(name, info.golden_ticks);
-    lks_golden::Recorder recorder(*scene);
-    for (std::uint32_t tick = 1; tick <= info.golden_ticks; ++tick) {
-        if (!scene->step(error)) {
-            return false;
-        }
-        recorder.record_tick();
+    const auto after_tick = [&](std::uint32_t tick, std::string& complaint) {
         const bool wanted = std::count(info.image_ticks.begin(), info.image_ticks.end(), tick) != 0;
-        if (wanted && picture && !picture(*scene, error)) {
+        if (wanted && picture && !picture(*scene, complaint)) {
             return false;
         }
         progress.update(tick);
-    }
-    recorder.record_points();
-    state = recorder.state();
-    return true;
+        return true;
+    };
+    return lks_golden::record_run(*scene, after_tick, state, error);
 }
 
 } // namespace lks_program

@@ -26,13 +26,9 @@ lks_golden::GoldenState run(const std::string& name, const lks_demo::SceneOption
     std::string error;
     const std::unique_ptr<lks_demo::Scene> scene = lks_demo::create_scene(name, options, error);
     REQUIRE_MESSAGE(scene != nullptr, error);
-    lks_golden::Recorder recorder(*scene);
-    for (std::uint32_t tick = 0; tick < scene->info().golden_ticks; ++tick) {
-        REQUIRE_MESSAGE(scene->step(error), error);
-        recorder.record_tick();
-    }
-    recorder.record_points();
-    return recorder.state();
+    lks_golden::GoldenState state;
+    REQUIRE_MESSAGE(lks_golden::record_run(*scene, {}, state, error), error);
+    return state;
 }
 
 } // namespace

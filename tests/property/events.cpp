@@ -7,32 +7,12 @@
 
 #include "support/bodies.h"
 #include "support/builders.h"
+#include "support/events.h"
 #include "support/refusals.h"
 
 using namespace support;
 
 namespace {
-
-void record(const World& world, std::uint32_t kinds = LKS_ALL_EVENTS, double least = 0,
-            std::uint32_t capacity = 1000) {
-    REQUIRE(lks_world_record_events(world, kinds, fixed(least), capacity) == LKS_OK);
-}
-
-// Those of the last call that ran ticks.
-std::vector<lks_event> events_of(const World& world) {
-    const lks_event* first = lks_world_events(world);
-    return std::vector<lks_event>(first, first + lks_world_event_count(world));
-}
-
-std::vector<lks_event> run(World& world, int ticks) {
-    std::vector<lks_event> all;
-    for (int i = 0; i < ticks; ++i) {
-        world.step();
-        const std::vector<lks_event> now = events_of(world);
-        all.insert(all.end(), now.begin(), now.end());
-    }
-    return all;
-}
 
 std::vector<lks_event> only(const std::vector<lks_event>& all, lks_event_kind kind) {
     std::vector<lks_event> some;

@@ -6,6 +6,7 @@
 
 #include "support/bodies.h"
 #include "support/builders.h"
+#include "support/events.h"
 
 using namespace support;
 
@@ -40,18 +41,9 @@ struct Fall {
         return def;
     }
     void record(double least = 0) {
-        REQUIRE(lks_world_record_events(world, LKS_EVENT_BIT(LKS_EVENT_PARTICLES_PUSHED), fixed(least),
-                                        100) == LKS_OK);
+        support::record(world, LKS_EVENT_BIT(LKS_EVENT_PARTICLES_PUSHED), least, 100);
     }
-    std::vector<lks_event> run(int ticks) {
-        std::vector<lks_event> all;
-        for (int i = 0; i < ticks; ++i) {
-            world.step();
-            const lks_event* first = lks_world_events(world);
-            all.insert(all.end(), first, first + lks_world_event_count(world));
-        }
-        return all;
-    }
+    std::vector<lks_event> run(int ticks) { return support::run(world, ticks); }
 
     World world;
     lks_body_id table{};
@@ -139,7 +131,7 @@ TEST_CASE("within a tick particles come after contacts, by objects and then bodi
     for (int i = 0; i < 3; ++i) {
         world.add(rope, at(0, 0.5, 0.1 * i - 0.1));
     }
-    REQUIRE(lks_world_record_events(world, LKS_ALL_EVENTS, 0, 1000) == LKS_OK);
+    record(world);
     std::size_t most = 0;
     for (int tick = 0; tick < 90; ++tick) {
         world.step();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "support/bodies.h"
+#include "support/events.h"
 
 using namespace support;
 
@@ -33,7 +34,7 @@ public:
         REQUIRE(human_.add(world, bodies, joints) == LKS_OK);
         raise_arms(scale);
         hang_weight(scale);
-        REQUIRE(lks_world_record_events(world, LKS_EVENT_BIT(LKS_EVENT_JOINT_BROKE), 0, 100) == LKS_OK);
+        record(world, LKS_EVENT_BIT(LKS_EVENT_JOINT_BROKE), 0, 100);
     }
 
     void hold(const std::vector<int>& bones) {
@@ -47,9 +48,8 @@ public:
         const Vector at = state_of(world, weight).position;
         REQUIRE(lks_body_apply_impulse(world, weight, fixed(0, -newtons / 60, 0), fixed(at.x, at.y, at.z)) ==
                 LKS_OK);
-        world.step();
-        const lks_event* events = lks_world_events(world);
-        broken.insert(broken.end(), events, events + lks_world_event_count(world));
+        const std::vector<lks_event> now = run(world, 1);
+        broken.insert(broken.end(), now.begin(), now.end());
     }
 
     bool has(int bone) const { return lks_world_has_joint(world, joints[bone - 1]) == 1; }
@@ -212,16 +212,7 @@ TEST_CASE("a figure that breaks everywhere tells so in the order of its joints, 
         human.def.transform.rotation = about(1, 0, 0.2, 80);
         add_ground(world);
         REQUIRE(human.add(world, bodies, joints) == LKS_OK);
-        REQUIRE(lks_world_record_events(world, LKS_EVENT_BIT(LKS_EVENT_JOINT_BROKE), 0, 100) == LKS_OK);
-    };
-    const auto run = [](World& world, int ticks) {
-        std::vector<lks_event> all;
-        for (int tick = 0; tick < ticks; ++tick) {
-            world.step();
-            const lks_event* events = lks_world_events(world);
-            all.insert(all.end(), events, events + lks_world_event_count(world));
-        }
-        return all;
+        record(world, LKS_EVENT_BIT(LKS_EVENT_JOINT_BROKE), 0, 100);
     };
     World world(world_def(60, 8));
     lks_body_id bodies[LKS_HUMANOID_BONES];
@@ -243,7 +234,7 @@ TEST_CASE("a figure that breaks everywhere tells so in the order of its joints, 
     CHECK(together); // some in one tick, so that their order says something
     // Rolled back, and in a world that knows nothing of it.
     World fresh(world_def(60, 8));
-    REQUIRE(lks_world_record_events(fresh, LKS_EVENT_BIT(LKS_EVENT_JOINT_BROKE), 0, 100) == LKS_OK);
+    record(fresh, LKS_EVENT_BIT(LKS_EVENT_JOINT_BROKE), 0, 100);
     for (World* again : {&world, &fresh}) {
         REQUIRE(lks_world_load(*again, image.data(), image.size()) == LKS_OK);
         CHECK(lks_world_joint_count(*again) == joint_count);

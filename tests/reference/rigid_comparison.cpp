@@ -82,7 +82,7 @@ std::size_t RigidScene::add_anchor(const lks_vec3& position) {
 }
 
 void RigidScene::join(lks_joint_def def, std::size_t a, std::size_t b) {
-    support::add_joint(world_, def, ids_[a], ids_[b]);
+    joints_.push_back(support::add_joint(world_, def, ids_[a], ids_[b]));
     model_.joints.push_back(rigid_joint(def, a, b));
 }
 

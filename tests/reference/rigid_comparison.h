@@ -38,7 +38,13 @@ public:
     // The greatest until each of these ticks, in ascending order. Once a scene.
     std::vector<RigidDeviation> run(const std::vector<int>& ticks);
 
+    const Settings& settings() const { return settings_; }
     const RigidModel& model() const { return model_; } // as it begins
+    support::World& world() { return world_; }
+    const support::World& world() const { return world_; }
+    std::size_t size() const { return ids_.size(); }
+    lks_body_id id(std::size_t body) const { return ids_[body]; }
+    const std::vector<lks_joint_id>& joints() const { return joints_; }
 
 private:
     Settings settings_;
@@ -46,6 +52,7 @@ private:
     bool touches_planes_ = false;
     bool touches_bodies_ = false;
     std::vector<lks_body_id> ids_;
+    std::vector<lks_joint_id> joints_;
     RigidModel model_;
 };
 

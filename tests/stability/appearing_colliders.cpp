@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "stability/support/nets.h"
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
 #include "support/bodies.h"
@@ -22,12 +23,7 @@ lks_collider_def ball(double radius, const lks_vec3& position) {
 }
 
 Net small_net() {
-    Net net;
-    net.side = 16;
-    net.width = 1.5;
-    net.particle_mass = 1.0 / 256;
-    net.radius = 0.01;
-    return net;
+    return kilogram_net(16, 1.5);
 }
 
 } // namespace

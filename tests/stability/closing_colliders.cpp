@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "stability/support/nets.h"
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
 
@@ -13,12 +14,7 @@ using namespace stability;
 namespace {
 
 Net small_net() {
-    Net net;
-    net.side = 20;
-    net.width = 1;
-    net.particle_mass = 1.0 / 400;
-    net.radius = 0.01;
-    return net;
+    return kilogram_net(20, 1);
 }
 
 lks_collider_def block(double x, double y, double z, const lks_vec3& position) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "stability/support/jointed.h"
+#include "stability/support/nets.h"
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
 #include "support/bodies.h"
@@ -18,12 +19,7 @@ namespace {
 constexpr double edge = 8388000; // the greatest position of an object
 
 Net small_net() {
-    Net net;
-    net.side = 12;
-    net.width = 1;
-    net.particle_mass = 1.0 / 144;
-    net.radius = 0.01;
-    return net;
+    return kilogram_net(12, 1);
 }
 
 } // namespace

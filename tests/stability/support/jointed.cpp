@@ -6,46 +6,20 @@ using namespace support;
 
 namespace stability {
 
-Jointed::Jointed(const lks_world_def& settings) : world_(settings) {
-    settings_.tick_rate_hz = settings.tick_rate_hz;
-    settings_.substeps = static_cast<int>(settings.substeps);
-    settings_.iterations = static_cast<int>(settings.iterations);
-    settings_.gravity = metres(settings.gravity);
+namespace {
+
+reference::Settings settings_of(const lks_world_def& def) {
+    reference::Settings settings;
+    settings.tick_rate_hz = def.tick_rate_hz;
+    settings.substeps = static_cast<int>(def.substeps);
+    settings.iterations = static_cast<int>(def.iterations);
+    settings.gravity = metres(def.gravity);
+    return settings;
 }
 
-void Jointed::add_ground(double friction) {
-    lks_collider_def def = lks_default_collider_def();
-    def.shape = LKS_SHAPE_PLANE;
-    def.static_friction = def.dynamic_friction = fixed(friction);
-    world_.add(def);
-    model_.planes.push_back(reference::rigid_plane(def));
-    touches_ground_ = true;
-}
+} // namespace
 
-std::size_t Jointed::add(const lks_body_shape& shape, lks_body_def def) {
-    def.never_sleeps = 1;
-    // Of one group, they don't touch each other.
-    def.filter.group = -1;
-    if (!touches_ground_) {
-        def.filter.mask = 0;
-    }
-    ids_.push_back(add_body(world_, shape, def.transform.position, def));
-    model_.bodies.push_back(reference::rigid_body(def, shape, mass_of(world_, ids_.back())));
-    model_.bodies.back().touches_planes = touches_ground_;
-    return ids_.size() - 1;
-}
-
-std::size_t Jointed::add_anchor(const lks_vec3& position) {
-    lks_body_def def = lks_default_body_def();
-    def.kind = LKS_BODY_KINEMATIC;
-    def.transform.position = position;
-    return add(ball_shape(0.05), def);
-}
-
-void Jointed::join(const lks_joint_def& def, std::size_t a, std::size_t b) {
-    joints_.push_back(add_joint(world_, def, ids_[a], ids_[b]));
-    model_.joints.push_back(reference::rigid_joint(def, a, b));
-}
+Jointed::Jointed(const lks_world_def& settings) : RigidScene(settings_of(settings)) {}
 
 void Jointed::add_chain(std::uint32_t links, double ratio, double damping) {
     std::size_t above = add_anchor({});
@@ -66,23 +40,23 @@ void Jointed::add_chain(std::uint32_t links, double ratio, double damping) {
 void Jointed::step(int ticks) {
     twin();
     for (int i = 0; i < ticks; ++i) {
-        world_.step();
+        world().step();
         twin_->tick();
     }
 }
 
 const reference::RigidSolver<float>& Jointed::twin() const {
     if (twin_ == nullptr) {
-        twin_ = std::make_unique<reference::RigidSolver<float>>(model_, settings_);
+        twin_ = std::make_unique<reference::RigidSolver<float>>(model(), settings());
     }
     return *twin_;
 }
 
 double Jointed::gap() const {
     double greatest = 0;
-    for (const lks_joint_id joint : joints_) {
+    for (const lks_joint_id joint : joints()) {
         lks_fixed error = 0;
-        REQUIRE(lks_joint_error(world_, joint, &error) == LKS_OK);
+        REQUIRE(lks_joint_error(world(), joint, &error) == LKS_OK);
         greatest = std::max(greatest, metres(error));
     }
     return greatest;
@@ -94,7 +68,7 @@ double Jointed::twin_gap() const {
         return twin().position(body) + (q.matrix() * reference::Vector3<double>(point)).widened();
     };
     double greatest = 0;
-    for (const reference::RigidJoint& joint : model_.joints) {
+    for (const reference::RigidJoint& joint : model().joints) {
         const double apart = (end(joint.a, joint.point_a) - end(joint.b, joint.point_b)).length();
         if (!(apart <= greatest)) {
             greatest = apart;
@@ -105,16 +79,16 @@ double Jointed::twin_gap() const {
 
 double Jointed::energy() const {
     double sum = kinetic_energy();
-    for (std::size_t i = 0; i < ids_.size(); ++i) {
-        sum -= model_.bodies[i].mass * settings_.gravity.dot(position(i));
+    for (std::size_t i = 0; i < size(); ++i) {
+        sum -= model().bodies[i].mass * settings().gravity.dot(position(i));
     }
     return sum;
 }
 
 double Jointed::twin_energy() const {
     double sum = twin_kinetic_energy();
-    for (std::size_t i = 0; i < ids_.size(); ++i) {
-        sum -= model_.bodies[i].mass * settings_.gravity.dot(twin_position(i));
+    for (std::size_t i = 0; i < size(); ++i) {
+        sum -= model().bodies[i].mass * settings().gravity.dot(twin_position(i));
     }
     return sum;
 }
