@@ -50,6 +50,10 @@ const lks::Kernels& dawdling() {
             dawdle();
             return prompt().predict(task);
         },
+        [](const std::int64_t* values, std::size_t count) {
+            dawdle();
+            return prompt().range(values, count);
+        },
         [](const lks::BoxTask& task, std::uint32_t first, std::uint32_t count) {
             dawdle();
             return prompt().near_box(task, first, count);

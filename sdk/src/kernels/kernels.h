@@ -6,6 +6,7 @@
 
 #include "kernels/chain_task.h"
 #include "kernels/contact_task.h"
+#include "kernels/coordinate_range.h"
 #include "kernels/distance_task.h"
 #include "kernels/prediction_task.h"
 #include "kernels/tether_task.h"
@@ -21,6 +22,8 @@ struct Kernels {
     std::uint32_t constraints_a_block;
     void (*project_distances)(const DistanceTask& task);
     PredictionClamps (*predict)(const PredictionTask& task);
+    // Of one number at least.
+    CoordinateRange (*range)(const std::int64_t* values, std::size_t count);
     // Bit i: particle first + i may be touched; count ≤ 64.
     std::uint64_t (*near_box)(const BoxTask& task, std::uint32_t first, std::uint32_t count);
     std::uint64_t (*near_plane)(const PlaneTask& task, std::uint32_t first, std::uint32_t count);

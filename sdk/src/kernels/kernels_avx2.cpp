@@ -9,6 +9,7 @@
 #include "kernels/lanes_avx2.h"
 #include "kernels/leave_lanes.h"
 #include "kernels/prediction_lanes.h"
+#include "kernels/range_lanes.h"
 #include "kernels/tether_lanes.h"
 #include "kernels/tree_lanes.h"
 
@@ -19,6 +20,7 @@ constinit const Kernels kernels_avx2{LKS_SIMD_AVX2,
                                      4096,
                                      leaving<LanesAvx2, project_lanes<LanesAvx2>>,
                                      leaving<LanesAvx2, predict_lanes<LanesAvx2>>,
+                                     leaving<LanesAvx2, range_lanes<LanesAvx2>>,
                                      leaving<LanesAvx2, near_box_lanes<LanesAvx2>>,
                                      leaving<LanesAvx2, near_plane_lanes<LanesAvx2>>,
                                      leaving<LanesAvx2, beyond_tether_lanes<LanesAvx2>>,

@@ -15,6 +15,7 @@
 #include "kernels/lanes_avx512.h"
 #include "kernels/leave_lanes.h"
 #include "kernels/prediction_lanes.h"
+#include "kernels/range_lanes.h"
 #include "kernels/tether_lanes.h"
 #include "kernels/tree_lanes.h"
 
@@ -37,6 +38,7 @@ constinit const Kernels kernels_avx512{LKS_SIMD_AVX512,
                                        8192,
                                        project_by_length,
                                        leaving<LanesAvx512, predict_lanes<LanesAvx512, LanesAvx2>>,
+                                       leaving<LanesAvx512, range_lanes<LanesAvx512>>,
                                        leaving<LanesAvx512, near_box_lanes<LanesAvx512>>,
                                        leaving<LanesAvx512, near_plane_lanes<LanesAvx512>>,
                                        leaving<LanesAvx512, beyond_tether_lanes<LanesAvx512>>,

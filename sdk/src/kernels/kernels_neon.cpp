@@ -8,6 +8,7 @@
 #include "kernels/hash_update.h"
 #include "kernels/lanes_neon.h"
 #include "kernels/prediction_lanes.h"
+#include "kernels/range_lanes.h"
 #include "kernels/tether_lanes.h"
 
 namespace lks {
@@ -17,6 +18,7 @@ constinit const Kernels kernels_neon{LKS_SIMD_NEON,
                                      2048,
                                      project_lanes<LanesNeon>,
                                      predict_lanes<LanesNeon>,
+                                     range_lanes<LanesNeon>,
                                      near_box_lanes<LanesNeon>,
                                      near_plane_lanes<LanesNeon>,
                                      beyond_tether_lanes<LanesNeon>,

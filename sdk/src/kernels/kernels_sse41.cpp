@@ -8,6 +8,7 @@
 #include "kernels/hash_update.h"
 #include "kernels/lanes_sse41.h"
 #include "kernels/prediction_lanes.h"
+#include "kernels/range_lanes.h"
 #include "kernels/tether_lanes.h"
 
 namespace lks {
@@ -17,6 +18,7 @@ constinit const Kernels kernels_sse41{LKS_SIMD_SSE41,
                                       2048,
                                       project_lanes<LanesSse41>,
                                       predict_lanes<LanesSse41>,
+                                      range_lanes<LanesSse41>,
                                       near_box_lanes<LanesSse41>,
                                       near_plane_lanes<LanesSse41>,
                                       beyond_tether_lanes<LanesSse41>,

@@ -8,6 +8,7 @@
 #include "kernels/hash_update.h"
 #include "kernels/lanes_wasm.h"
 #include "kernels/prediction_lanes.h"
+#include "kernels/range_lanes.h"
 #include "kernels/tether_lanes.h"
 #include "kernels/twice_lanes.h"
 
@@ -18,6 +19,7 @@ constinit const Kernels kernels_wasm{LKS_SIMD_WASM,
                                      2048,
                                      project_lanes<TwiceLanes<LanesWasm>>,
                                      predict_lanes<LanesWasm>,
+                                     range_lanes<LanesWasm>,
                                      near_box_lanes<LanesWasm>,
                                      near_plane_lanes<LanesWasm>,
                                      beyond_tether_lanes<LanesWasm>,

@@ -63,6 +63,12 @@ struct LanesNeon {
         return vshlq_u64(v, vreinterpretq_s64_u64(counts));
     }
     static Register equal(Register a, Register b) { return vceqq_u64(a, b); }
+    static Register minimum_signed(Register a, Register b) {
+        return vbslq_u64(vcgtq_s64(vreinterpretq_s64_u64(a), vreinterpretq_s64_u64(b)), b, a);
+    }
+    static Register maximum_signed(Register a, Register b) {
+        return vbslq_u64(vcgtq_s64(vreinterpretq_s64_u64(a), vreinterpretq_s64_u64(b)), a, b);
+    }
     // b where the 64-bit lane of `sign` is negative.
     static Register select_by_sign(Register a, Register b, Register sign) {
         return vbslq_u64(vcltzq_s64(vreinterpretq_s64_u64(sign)), b, a);

@@ -63,6 +63,8 @@ struct LanesSse41 {
         return _mm_blend_epi16(_mm_sll_epi64(v, counts), _mm_sll_epi64(v, upper(counts)), 0xf0);
     }
     static Register equal(Register a, Register b) { return _mm_cmpeq_epi64(a, b); }
+    static Register minimum_signed(Register a, Register b) { return select_by_sign(a, b, less(b, a)); }
+    static Register maximum_signed(Register a, Register b) { return select_by_sign(a, b, less(a, b)); }
     // b where the 64-bit lane of `sign` is negative.
     static Register select_by_sign(Register a, Register b, Register sign) {
         return _mm_castpd_si128(
@@ -138,6 +140,11 @@ struct LanesSse41 {
     static bool all(Register v) { return _mm_testc_si128(v, _mm_set1_epi32(-1)) != 0; }
 
 private:
+    // The sign bit: a < b.
+    static Register less(Register a, Register b) {
+        const Register borrows = _mm_and_si128(_mm_cmpeq_epi32(a, b), _mm_sub_epi64(a, b));
+        return _mm_or_si128(borrows, _mm_cmpgt_epi32(b, a));
+    }
     static Register upper(Register v) { return _mm_unpackhi_epi64(v, v); }
 };
 

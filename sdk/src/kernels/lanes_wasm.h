@@ -65,6 +65,12 @@ struct LanesWasm {
                                   0, 3);
     }
     static Register equal(Register a, Register b) { return wasm_i64x2_eq(a, b); }
+    static Register minimum_signed(Register a, Register b) {
+        return wasm_v128_bitselect(b, a, wasm_i64x2_gt(a, b));
+    }
+    static Register maximum_signed(Register a, Register b) {
+        return wasm_v128_bitselect(a, b, wasm_i64x2_gt(a, b));
+    }
     // b where the 64-bit lane of `sign` is negative.
     static Register select_by_sign(Register a, Register b, Register sign) {
         return wasm_v128_bitselect(b, a, wasm_i64x2_lt(sign, wasm_i64x2_splat(0)));

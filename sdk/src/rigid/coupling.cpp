@@ -113,7 +113,7 @@ private:
 
     // Where its particles are, and may be at twice their speed.
     Box box_of_object(const Object& object) const {
-        Bounds bounds = object.bounds();
+        Bounds bounds = object.bounds(*world_.kernels);
         for (const Pin& pin : object.pins()) {
             include(bounds, pin.target);
         }

@@ -24,7 +24,7 @@ HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t obje
 // moved.
 class SweptParticles {
 public:
-    explicit SweptParticles(const Object& object) : object_(object) {}
+    SweptParticles(const Object& object, const Kernels& kernels) : object_(object), kernels_(kernels) {}
 
     const Bounds& bounds();
     // By how much the box of any one's way is to grow at most (collide/collider_motion.h).
@@ -33,6 +33,7 @@ public:
 
 private:
     const Object& object_;
+    const Kernels& kernels_;
     Bounds bounds_{};
     std::int64_t growth_ = 0;
     bool bounds_known_ = false;

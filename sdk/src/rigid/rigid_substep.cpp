@@ -292,7 +292,7 @@ void RigidSubstep::collide_objects(std::uint32_t substep) {
     for (const std::uint32_t index : scene_.coupled) {
         Object& object = coupled_object(world_, index);
         collide_object(world_, object, world_.scratch[0], substep);
-        SweptParticles swept(object);
+        SweptParticles swept(object, *world_.kernels);
         bool touched = false;
         for (; pair < scene_.object_pairs.size() && scene_.object_pairs[pair] >> 32 == index; ++pair) {
             const auto body = static_cast<std::uint32_t>(scene_.object_pairs[pair]);

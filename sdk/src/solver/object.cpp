@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kernels/kernels.h"
+
 namespace lks {
 namespace {
 
@@ -131,33 +133,27 @@ std::uint64_t Object::shift_pin_targets(int axis, std::int64_t shift) {
 
 namespace {
 
-void extend(const std::int64_t* values, std::uint32_t count, std::int64_t& low, std::int64_t& high) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-        low = std::min(low, values[i]);
-        high = std::max(high, values[i]);
-    }
+Bounds make_bounds(const CoordinateRange (&ranges)[3]) {
+    return {{ranges[0].low, ranges[1].low, ranges[2].low}, {ranges[0].high, ranges[1].high, ranges[2].high}};
 }
 
 } // namespace
 
-Bounds Object::bounds() const {
-    const Coordinates any = position(0);
-    Bounds result{{any.x, any.y, any.z}, {any.x, any.y, any.z}};
-    extend(axis(0), count(), result.low.x, result.high.x);
-    extend(axis(1), count(), result.low.y, result.high.y);
-    extend(axis(2), count(), result.low.z, result.high.z);
-    return result;
+Bounds Object::bounds(const Kernels& kernels) const {
+    CoordinateRange ranges[3];
+    for (int i = 0; i < 3; ++i) {
+        ranges[i] = kernels.range(axis(i), count());
+    }
+    return make_bounds(ranges);
 }
 
-Bounds Object::swept_bounds(std::uint32_t first, std::uint32_t particle_count) const {
-    const Coordinates any = position(first);
-    Bounds result{{any.x, any.y, any.z}, {any.x, any.y, any.z}};
-    for (int half = 0; half < 2; ++half) {
-        extend(axis(3 * half) + first, particle_count, result.low.x, result.high.x);
-        extend(axis(3 * half + 1) + first, particle_count, result.low.y, result.high.y);
-        extend(axis(3 * half + 2) + first, particle_count, result.low.z, result.high.z);
+Bounds Object::swept_bounds(const Kernels& kernels, std::uint32_t first, std::uint32_t particle_count) const {
+    CoordinateRange ranges[3];
+    for (int i = 0; i < 3; ++i) {
+        ranges[i] = joined(kernels.range(axis(i) + first, particle_count),
+                           kernels.range(start_axis(i) + first, particle_count));
     }
-    return result;
+    return make_bounds(ranges);
 }
 
 std::int64_t Object::greatest_motion() const {

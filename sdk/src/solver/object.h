@@ -13,6 +13,8 @@
 
 namespace lks {
 
+struct Kernels;
+
 struct Pin {
     std::uint32_t particle;
     std::uint32_t reserved;
@@ -97,13 +99,13 @@ public:
     // After the origin moved; a target that leaves the range by it is clamped. How many were.
     std::uint64_t shift_pin_targets(int axis, std::int64_t shift);
 
-    Bounds bounds() const;
+    Bounds bounds(const Kernels& kernels) const;
     // Of any particle on any axis in the last substep, at most substep_motion_limit.
     std::int64_t greatest_motion() const;
     // A bound of the sum over the axes of how far any particle has come in the substep.
     std::int64_t greatest_way() const;
     // Of where some of the particles are and were at the start of the substep.
-    Bounds swept_bounds(std::uint32_t first, std::uint32_t count) const;
+    Bounds swept_bounds(const Kernels& kernels, std::uint32_t first, std::uint32_t count) const;
 
     // State.
     fixed::Vec3 origin{};            // World

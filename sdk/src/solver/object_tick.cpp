@@ -39,7 +39,7 @@ public:
 
     // Where its particles are at the beginning of the tick.
     Bounds begin() {
-        Bounds bounds = object_.bounds();
+        Bounds bounds = object_.bounds(*world_.kernels);
         follow_object(object_, bounds, scratch_.counters);
         object_.keep_previous();
         begin_pin_motion(object_);
@@ -62,7 +62,7 @@ public:
     }
 
     void collide(std::uint32_t substep) {
-        find_candidates(object_.bounds(), 1);
+        find_candidates(object_.bounds(*world_.kernels), 1);
         resolve_all_contacts(substep);
     }
 
@@ -231,7 +231,7 @@ private:
         const std::uint32_t blocks =
             in_blocks(object_.count(), particles_a_block,
                       [&](std::uint32_t block, std::uint32_t first, std::uint32_t count) {
-                          parts[block] = object_.swept_bounds(first, count);
+                          parts[block] = object_.swept_bounds(*world_.kernels, first, count);
                       });
         Bounds bounds = parts[0];
         for (std::uint32_t block = 1; block < blocks; ++block) {
