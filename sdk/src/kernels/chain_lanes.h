@@ -6,33 +6,13 @@
 #include <algorithm>
 
 #include "fixed/formats.h"
-#include "fixed/reciprocal_sqrt.h"
 #include "kernels/chain_scalar.h"
 #include "kernels/force_inline.h"
 #include "kernels/leave_lanes.h"
+#include "kernels/mantissa_lanes.h"
 
 namespace lks {
 namespace {
-
-// Seeds of fixed/reciprocal_sqrt.h as 32-bit lanes take them: entries 0 .. 7 and 8 .. 15.
-struct ChainSeeds {
-    std::uint32_t c0_c1[2][8]; // c0 low
-    std::uint32_t c2[2][8];    // high
-};
-
-constexpr ChainSeeds make_chain_seeds(const fixed::detail::SeedTable& table) {
-    ChainSeeds seeds{};
-    for (int i = 0; i < 16; ++i) {
-        const fixed::SeedSegment& segment = table.segment[i];
-        seeds.c0_c1[i / 8][i % 8] =
-            segment.c0 | (std::uint32_t{static_cast<std::uint16_t>(segment.c1)} << 16);
-        seeds.c2[i / 8][i % 8] = std::uint32_t{static_cast<std::uint16_t>(segment.c2)} << 16;
-    }
-    return seeds;
-}
-
-constexpr ChainSeeds reciprocal_sqrt_lane_seeds = make_chain_seeds(fixed::reciprocal_sqrt_seeds);
-constexpr ChainSeeds reciprocal_lane_seeds = make_chain_seeds(fixed::reciprocal_seeds);
 
 template <typename L>
 class ChainLanes {
@@ -64,7 +44,7 @@ public:
         // 1 where the upper two bits are clear, or else 0.
         const R up = L::bit_and(L::equal(L::template shift_right<62>(squared), L::set(0)), L::set(1));
         const R m = L::shift_left_each(squared, L::add(up, up));
-        const R y = reciprocal_sqrt(L::template shift_right<32>(m));
+        const R y = MantissaLanes<L>::reciprocal_sqrt(L::template shift_right<32>(m));
         outside = L::bit_or(outside, L::bit_and(L::template shift_left<32>(y), L::set(INT64_MIN)));
         if (L::any(L::bit_and(outside, L::set(high_halves)))) {
             return false;
@@ -131,7 +111,7 @@ public:
     }
 
     LKS_FORCE_INLINE static void divide_row(ChainRows& rows, std::uint32_t i) {
-        const R y = reciprocal(L::template shift_right<31>(L::load(rows.scales + i)));
+        const R y = MantissaLanes<L>::reciprocal(L::template shift_right<31>(L::load(rows.scales + i)));
         const R ratio = L::multiply_unsigned(L::template shift_right<31>(L::load(rows.scales + i + 1)), y);
         const R up = L::load(rows.shifts + i);
         L::store(rows.ratios + i, L::template shift_right<32>(ratio));
@@ -236,7 +216,7 @@ public:
         const R mantissa = L::bit_or(L::template shift_right<32>(L::shift_left_each(part, up)),
                                      L::set(std::int64_t{1} << 31));
         const R product = L::multiply_unsigned(scale, mantissa);
-        const R y = reciprocal(
+        const R y = MantissaLanes<L>::reciprocal(
             L::template shift_right<32>(L::select_by_sign(L::add(product, product), product, product)));
         const R up_y = L::select_by_sign(L::add(y, y), y, product);
         const R inverse = L::subtract(up_y, L::template shift_right<32>(up_y));
@@ -328,44 +308,6 @@ private:
     LKS_FORCE_INLINE static R share_31(R a, R b) {
         return L::add(L::multiply_unsigned(L::template shift_right<31>(a), b),
                       L::template shift_right<31>(L::multiply_unsigned(L::bit_and(a, L::set(low_31)), b)));
-    }
-
-    // fixed::seed; m in the low halves, with zeros above.
-    LKS_FORCE_INLINE static R seed(R c0_c1, R c2, R m) {
-        // In the high 16 bits of 32.
-        const R t = L::exclusive_or(L::template shift_left<4>(m), L::set_32(INT32_MIN));
-        const R slope = L::add_16(c0_c1, L::rounding_multiply_16(t, c2));
-        const R correction = L::template shift_right_32<16>(L::rounding_multiply_16(t, slope));
-        return L::bit_and(L::add_16(c0_c1, correction), L::set(0xffff));
-    }
-
-    // fixed::reciprocal_mantissa; the same.
-    LKS_FORCE_INLINE static R reciprocal(R m) {
-        const R index = L::template shift_right<28>(m);
-        const R y0 = seed(L::lookup(reciprocal_lane_seeds.c0_c1[1], index),
-                          L::lookup(reciprocal_lane_seeds.c2[1], index), m);
-        const R e = L::template shift_right<4>(
-            L::subtract(L::set(std::int64_t{1} << 47), L::multiply_unsigned(m, y0)));
-        const R p = L::add_32(e, L::template shift_right<43>(L::multiply_signed(e, e)));
-        const R y = L::add(L::template shift_left<43>(y0), L::multiply_signed(y0, p));
-        return L::template shift_right<28>(L::add(y, L::set(std::int64_t{1} << 27)));
-    }
-
-    // fixed::reciprocal_sqrt_mantissa; the same.
-    LKS_FORCE_INLINE static R reciprocal_sqrt(R m) {
-        const R index = L::template shift_right<28>(m);
-        const ChainSeeds& seeds = reciprocal_sqrt_lane_seeds;
-        const R y0 =
-            seed(L::select_by_sign_32(L::lookup(seeds.c0_c1[0], index), L::lookup(seeds.c0_c1[1], index), m),
-                 L::select_by_sign_32(L::lookup(seeds.c2[0], index), L::lookup(seeds.c2[1], index), m), m);
-        const R y0_squared = L::multiply_unsigned(y0, y0);
-        const R e = L::template shift_right<20>(
-            L::subtract(L::set(std::int64_t{1} << 62), L::multiply_unsigned(m, y0_squared)));
-        const R e_squared = L::template shift_right<42>(L::multiply_signed(e, e));
-        const R p = L::add_32(L::template shift_right_32_signed<1>(e),
-                              L::template shift_right<3>(L::add(L::add(e_squared, e_squared), e_squared)));
-        const R y = L::add(L::template shift_left<42>(y0), L::multiply_signed(y0, p));
-        return L::template shift_right<27>(L::add(y, L::set(std::int64_t{1} << 26)));
     }
 };
 

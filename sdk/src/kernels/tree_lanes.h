@@ -7,17 +7,19 @@
 #include "kernels/force_inline.h"
 #include "kernels/leave_lanes.h"
 #include "kernels/tree_task.h"
+#include "kernels/vector_lanes.h"
 #include "rigid/push_limits.h"
 
 namespace lks {
 namespace {
 
 template <typename L>
-class WideTree {
+class WideTree : VectorLanes<L> {
+    using V = VectorLanes<L>;
     using R = typename L::Register;
-    struct Vector {
-        R x, y, z;
-    };
+    using typename V::Halves;
+    using typename V::Vector;
+    using V::add, V::subtract, V::negate, V::clamp, V::halves, V::dot_30, V::multiply_narrow;
 
 public:
     WideTree(const TreeTask& task, std::uint32_t first) : task_(task), first_(first) {}
@@ -66,33 +68,6 @@ private:
         store(to[2], v.z);
     }
 
-    LKS_FORCE_INLINE static Vector add(const Vector& a, const Vector& b) {
-        return {L::add(a.x, b.x), L::add(a.y, b.y), L::add(a.z, b.z)};
-    }
-    LKS_FORCE_INLINE static Vector subtract(const Vector& a, const Vector& b) {
-        return {L::subtract(a.x, b.x), L::subtract(a.y, b.y), L::subtract(a.z, b.z)};
-    }
-    LKS_FORCE_INLINE static Vector negate(const Vector& a) {
-        return subtract({L::set(0), L::set(0), L::set(0)}, a);
-    }
-    LKS_FORCE_INLINE static R clamp(R v, std::int64_t limit) {
-        return L::maximum_signed(L::minimum_signed(v, L::set(limit)), L::set(-limit));
-    }
-    LKS_FORCE_INLINE static Vector clamp(const Vector& v, std::int64_t limit) {
-        return {clamp(v.x, limit), clamp(v.y, limit), clamp(v.z, limit)};
-    }
-    // v / 2^count, rounded down; any v.
-    template <int count>
-    LKS_FORCE_INLINE static R shift_down(R v) {
-        if constexpr (L::has_signed_shift) {
-            return L::template shift_right_signed<count>(v);
-        } else {
-            const R lifted = L::exclusive_or(v, L::set(INT64_MIN));
-            return L::subtract(L::template shift_right<count>(lifted),
-                               L::set(std::int64_t{1} << (63 - count)));
-        }
-    }
-
     // a·b/2^32, `rounding` units of 2^-32 added, rounded down; wraps.
     LKS_FORCE_INLINE static R multiply_32(R a, R b, std::int64_t rounding = 0) {
         R low = L::multiply_unsigned(a, b);
@@ -102,8 +77,8 @@ private:
         low = L::template shift_right<32>(low);
         if constexpr (L::has_multiply_low_64) {
             const R a_low = L::bit_and(a, L::set(0xffffffff));
-            return L::add(low, L::add(L::multiply_low_64(shift_down<32>(a), b),
-                                      L::multiply_low_64(a_low, shift_down<32>(b))));
+            return L::add(low, L::add(L::multiply_low_64(V::template shift_down<32>(a), b),
+                                      L::multiply_low_64(a_low, V::template shift_down<32>(b))));
         } else {
             const R zero = L::set(0);
             const R a_high = L::template shift_right<32>(a);
@@ -129,22 +104,6 @@ private:
         return {dot_32({xx, xy, xz}, v), dot_32({xy, yy, yz}, v), dot_32({xz, yz, zz}, v)};
     }
 
-    // A long number as high · 2^32 + low, both with signs, in the low halves; |v| <= 2^62.
-    struct Halves {
-        R high, low;
-    };
-    LKS_FORCE_INLINE static Halves halves(R v) {
-        return {L::template shift_right<32>(L::add(v, L::set(std::int64_t{1} << 31))), v};
-    }
-    // fixed::dot_shift_30 of the low halves of a, b and c.
-    LKS_FORCE_INLINE static R dot_30(R a, R b, R c, const Halves& x, const Halves& y, const Halves& z) {
-        const R high = L::add(L::add(L::multiply_signed(a, x.high), L::multiply_signed(b, y.high)),
-                              L::multiply_signed(c, z.high));
-        const R low = L::add(L::add(L::multiply_signed(a, x.low), L::multiply_signed(b, y.low)),
-                             L::multiply_signed(c, z.low));
-        return L::add(L::template shift_left<2>(high),
-                      shift_down<30>(L::add(low, L::set(std::int64_t{1} << 29))));
-    }
     LKS_FORCE_INLINE Vector rotate(const TreeLanes (&m)[9], const Vector& v) const {
         const Halves x = halves(v.x), y = halves(v.y), z = halves(v.z);
         return {dot_30(load(m[0]), load(m[1]), load(m[2]), x, y, z),
@@ -366,16 +325,6 @@ private:
                     shifted(dot_30(xz, yz, zz, x, y, z), body.turn_shift)});
     }
 
-    // The low 64 bits of v·q.
-    LKS_FORCE_INLINE static R multiply_narrow(R v, R q) {
-        if constexpr (L::has_multiply_low_64) {
-            return L::multiply_low_64(v, q);
-        } else {
-            return L::add(L::multiply_signed(v, q),
-                          L::template shift_left<32>(L::multiply_signed(halves(v).high, q)));
-        }
-    }
-
     // turn_body() of rigid/pair.h
     LKS_FORCE_INLINE void turn(WideTreeBody& body, const Vector& half_turn) const {
         const Vector near = clamp(half_turn, small_half_turn);
@@ -406,10 +355,12 @@ private:
         }
         follow_orientation(body, narrow(next[0]), narrow(next[1]), narrow(next[2]), narrow(next[3]), keeps);
     }
-    LKS_FORCE_INLINE static R narrow(R c) { return shift_down<30>(L::add(c, L::set(std::int64_t{1} << 29))); }
+    LKS_FORCE_INLINE static R narrow(R c) {
+        return V::template shift_down<30>(L::add(c, L::set(std::int64_t{1} << 29)));
+    }
     LKS_FORCE_INLINE static R part(R c) {
         constexpr int down = half_turn_fraction_bits + 30 - 60;
-        return shift_down<down>(L::add(c, L::set(std::int64_t{1} << (down - 1))));
+        return V::template shift_down<down>(L::add(c, L::set(std::int64_t{1} << (down - 1))));
     }
 
     // fixed::to_matrix
