@@ -59,6 +59,7 @@ const lks::Kernels& dawdling() {
             return prompt().near_box(task, first, count);
         },
         prompt().near_plane,
+        prompt().respond,
         [](const lks::TetherTask& task, std::uint32_t first, std::uint32_t count) {
             dawdle();
             return prompt().beyond_tether(task, first, count);

@@ -38,10 +38,6 @@ struct ColliderState {
 std::int64_t interpolate_position(std::int64_t a, std::int64_t b, std::uint32_t numerator,
                                   std::uint32_t denominator);
 
-// Friction coefficients: unsigned, 18 fraction bits. The product of collider and asset is at most 100 · 100;
-// whatever would not fit below 2^14 is clamped there.
-inline constexpr int friction_fraction_bits = 18;
-
 // One collider from one object, during one substep. The shape's frame goes evenly from its start to its end
 // pose, and so does a particle from its position at the start of the substep to where it is now; contacts are
 // looked for on the straight way between these two ends as the shape sees them.

@@ -181,14 +181,99 @@ bool misses_box(const ContactFrame& frame, const fixed::Vec3& position, const fi
            (high.x < frame.box_low.x) | (high.y < frame.box_low.y) | (high.z < frame.box_low.z);
 }
 
+fixed::Vec3 position_of(const ParticleArrays& particles, std::uint32_t i) {
+    return {particles.x[i], particles.y[i], particles.z[i]};
+}
+fixed::Vec3 start_of(const ParticleArrays& particles, std::uint32_t i) {
+    return {particles.start_x[i], particles.start_y[i], particles.start_z[i]};
+}
+
+// Bit i: particle first + i.
+std::uint64_t without_misses(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
+                             std::uint64_t near) {
+    for (std::uint64_t left = near; left != 0; left &= left - 1) {
+        const auto i = first + static_cast<std::uint32_t>(std::countr_zero(left));
+        if (misses_box(frame, position_of(particles, i), start_of(particles, i))) {
+            near &= ~(left & -left);
+        }
+    }
+    return near;
+}
+
 constexpr std::uint32_t particles_at_once = 64;
 
-// Calls resolve(i) for those of the particles whose bit near(first, count) sets.
+// Several at a time, where the kernels can.
+class WideResponse {
+public:
+    WideResponse(const ContactFrame& frame, const ParticleArrays& particles, Respond respond)
+        : respond_(centres_are_near(frame) ? respond : nullptr) {
+        if (respond_ != nullptr) {
+            task_ = make_task(frame, particles);
+        }
+    }
+
+    // Which of those whose bits are set are left.
+    std::uint64_t operator()(std::uint32_t first, std::uint32_t count, std::uint64_t near) const {
+        return respond_ == nullptr || near == 0 ? near : respond_(task_, first, count, near);
+    }
+
+private:
+    static bool centres_are_near(const ContactFrame& frame) {
+        const auto near = [](const fixed::Vec3& v) {
+            constexpr auto limit = static_cast<std::uint64_t>(response_centre_limit);
+            return fixed::magnitude(v.x) <= limit && fixed::magnitude(v.y) <= limit &&
+                   fixed::magnitude(v.z) <= limit;
+        };
+        return near(frame.start_centre) && near(frame.end_centre);
+    }
+    static ResponseTask make_task(const ContactFrame& frame, const ParticleArrays& particles) {
+        const Shape& shape = frame.shape;
+        const fixed::Vec3& a = frame.start_centre;
+        const fixed::Vec3& b = frame.end_centre;
+        const fixed::Matrix3 none = fixed::to_matrix(fixed::identity_rotation());
+        ResponseTask task{{particles.x, particles.y, particles.z},
+                          {particles.start_x, particles.start_y, particles.start_z},
+                          (shape.kind == LKS_SHAPE_PLANE ? 0 : shape.radius) + frame.margin,
+                          shape.half_length,
+                          {shape.half_extents.x, shape.half_extents.y, shape.half_extents.z},
+                          !(frame.start_rotation == none) || !(frame.end_rotation == none),
+                          {},
+                          {},
+                          {a.x, a.y, a.z},
+                          {b.x, b.y, b.z},
+                          frame.static_friction,
+                          frame.dynamic_friction,
+                          frame.greatest_recovery,
+                          contact_tolerance};
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column) {
+                task.start_rotation[row][column] = frame.start_rotation.m[row][column];
+                task.end_rotation[row][column] = frame.end_rotation.m[row][column];
+            }
+        }
+        return task;
+    }
+
+    Respond respond_;
+    ResponseTask task_;
+};
+
+template <lks_shape_kind kind>
+Respond response_to(const ResponseKernels& kernels) {
+    return kind == LKS_SHAPE_SPHERE    ? kernels.sphere
+           : kind == LKS_SHAPE_CAPSULE ? kernels.capsule
+           : kind == LKS_SHAPE_BOX     ? kernels.box
+                                       : kernels.plane;
+}
+
+// Calls resolve(i) for those of the particles whose bit near(first, count) sets, and respond() leaves.
 template <typename Near, typename Resolve>
-void visit_near(std::uint32_t first, std::uint32_t count, const Near& near, const Resolve& resolve) {
+void visit_near(std::uint32_t first, std::uint32_t count, const Near& near, const WideResponse& respond,
+                const Resolve& resolve) {
     const std::uint32_t last = first + count;
     for (std::uint32_t i = first; i < last; i += particles_at_once) {
-        std::uint64_t left = near(i, std::min(last - i, particles_at_once));
+        const std::uint32_t at_once = std::min(last - i, particles_at_once);
+        std::uint64_t left = respond(i, at_once, near(i, at_once));
         for (; left != 0; left &= left - 1) {
             resolve(i + static_cast<std::uint32_t>(std::countr_zero(left)));
         }
@@ -198,10 +283,9 @@ void visit_near(std::uint32_t first, std::uint32_t count, const Near& near, cons
 template <lks_shape_kind kind>
 void resolve_solid_contact(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t i,
                            ContactReaction* reaction) {
-    const fixed::Vec3 position = {particles.x[i], particles.y[i], particles.z[i]};
-    const fixed::Vec3 start = {particles.start_x[i], particles.start_y[i], particles.start_z[i]};
-    if ((frame.rotating && frame.has_box && misses_box(frame, position, start)) ||
-        (reaction != nullptr && reaction->ignores(i))) {
+    const fixed::Vec3 position = position_of(particles, i);
+    const fixed::Vec3 start = start_of(particles, i);
+    if (reaction != nullptr && reaction->ignores(i)) {
         return;
     }
     Way way{};
@@ -228,10 +312,15 @@ template <lks_shape_kind kind>
 void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
                    std::uint32_t count, const Kernels& kernels, ContactReaction* reaction) {
     const auto resolve = [&](std::uint32_t i) { resolve_solid_contact<kind>(frame, particles, i, reaction); };
+    const WideResponse respond(frame, particles,
+                               reaction == nullptr ? response_to<kind>(kernels.respond) : nullptr);
     if (frame.rotating && (!frame.has_box || frame.greatest_growth == INT64_MAX)) {
-        for (std::uint32_t i = first; i < first + count; ++i) {
-            resolve(i);
-        }
+        // Nothing can be said of all of them.
+        const auto near = [&](std::uint32_t i, std::uint32_t n) {
+            const std::uint64_t all = UINT64_MAX >> (particles_at_once - n);
+            return frame.has_box ? without_misses(frame, particles, i, all) : all;
+        };
+        visit_near(first, count, near, respond, resolve);
         return;
     }
     // Particles' boxes grow by no more than the frame's does here; each is looked at by its own later.
@@ -242,8 +331,11 @@ void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, s
                        {particles.start_x, particles.start_y, particles.start_z},
                        {upper_half(low.x), upper_half(low.y), upper_half(low.z)},
                        {upper_half(high.x), upper_half(high.y), upper_half(high.z)}};
-    const auto near = [&](std::uint32_t i, std::uint32_t n) { return kernels.near_box(task, i, n); };
-    visit_near(first, count, near, resolve);
+    const auto near = [&](std::uint32_t i, std::uint32_t n) {
+        const std::uint64_t in_box = kernels.near_box(task, i, n);
+        return frame.rotating ? without_misses(frame, particles, i, in_box) : in_box;
+    };
+    visit_near(first, count, near, respond, resolve);
 }
 
 // A plane is met only by what is below it in the end. Heights on 24 fraction bits decide for most.
@@ -258,11 +350,12 @@ void resolve_plane(const ContactFrame& frame, const ParticleArrays& particles, s
                          {a, b, d},
                          certainly_above + a * (c.x >> 32) + b * (c.y >> 32) + d * (c.z >> 32)};
     const auto near = [&](std::uint32_t i, std::uint32_t n) { return kernels.near_plane(task, i, n); };
-    visit_near(first, count, near, [&](std::uint32_t i) {
-        const fixed::Vec3 start = {particles.start_x[i], particles.start_y[i], particles.start_z[i]};
+    const WideResponse respond(frame, particles,
+                               reaction == nullptr ? response_to<LKS_SHAPE_PLANE>(kernels.respond) : nullptr);
+    visit_near(first, count, near, respond, [&](std::uint32_t i) {
         Way way{};
-        way.end = plane_local(r, {particles.x[i], particles.y[i], particles.z[i]}, c);
-        way.start = plane_local(frame.start_rotation, start, frame.start_centre);
+        way.end = plane_local(r, position_of(particles, i), c);
+        way.start = plane_local(frame.start_rotation, start_of(particles, i), frame.start_centre);
         Contact contact{};
         if (find_plane_contact(frame, way, contact)) {
             apply(frame, way, contact, particles, i, reaction);

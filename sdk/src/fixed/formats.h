@@ -39,4 +39,8 @@ inline constexpr std::int32_t direction_one = std::int32_t{1} << direction_fract
 // World positions of origins and colliders stay within ±8,388,000 m.
 inline constexpr std::int64_t world_position_limit = std::int64_t{8388000} << world_fraction_bits;
 
+// Friction coefficients: unsigned, 18 fraction bits. The product of collider and asset is at most 100 · 100;
+// whatever would not fit below 2^14 is clamped there.
+inline constexpr int friction_fraction_bits = 18;
+
 } // namespace lks

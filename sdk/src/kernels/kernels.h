@@ -9,6 +9,7 @@
 #include "kernels/coordinate_range.h"
 #include "kernels/distance_task.h"
 #include "kernels/prediction_task.h"
+#include "kernels/response_task.h"
 #include "kernels/tether_task.h"
 #include "kernels/tree_task.h"
 
@@ -27,6 +28,7 @@ struct Kernels {
     // Bit i: particle first + i may be touched; count ≤ 64.
     std::uint64_t (*near_box)(const BoxTask& task, std::uint32_t first, std::uint32_t count);
     std::uint64_t (*near_plane)(const PlaneTask& task, std::uint32_t first, std::uint32_t count);
+    ResponseKernels respond;
     // Bit i: particle first + i may be beyond its tether; count ≤ 64.
     std::uint64_t (*beyond_tether)(const TetherTask& task, std::uint32_t first, std::uint32_t count);
     ChainKernels chain;

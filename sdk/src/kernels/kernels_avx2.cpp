@@ -10,6 +10,7 @@
 #include "kernels/leave_lanes.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/range_lanes.h"
+#include "kernels/response_lanes.h"
 #include "kernels/tether_lanes.h"
 #include "kernels/tree_lanes.h"
 
@@ -23,6 +24,7 @@ constinit const Kernels kernels_avx2{LKS_SIMD_AVX2,
                                      leaving<LanesAvx2, range_lanes<LanesAvx2>>,
                                      leaving<LanesAvx2, near_box_lanes<LanesAvx2>>,
                                      leaving<LanesAvx2, near_plane_lanes<LanesAvx2>>,
+                                     leaving_response_lanes<LanesAvx2>(),
                                      leaving<LanesAvx2, beyond_tether_lanes<LanesAvx2>>,
                                      leaving_chain_lanes<LanesAvx2>(),
                                      leaving_tree_lanes<LanesAvx2>(),

@@ -16,6 +16,7 @@
 #include "kernels/leave_lanes.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/range_lanes.h"
+#include "kernels/response_lanes.h"
 #include "kernels/tether_lanes.h"
 #include "kernels/tree_lanes.h"
 
@@ -41,6 +42,7 @@ constinit const Kernels kernels_avx512{LKS_SIMD_AVX512,
                                        leaving<LanesAvx512, range_lanes<LanesAvx512>>,
                                        leaving<LanesAvx512, near_box_lanes<LanesAvx512>>,
                                        leaving<LanesAvx512, near_plane_lanes<LanesAvx512>>,
+                                       leaving_response_lanes<LanesAvx512>(),
                                        leaving<LanesAvx512, beyond_tether_lanes<LanesAvx512>>,
                                        leaving_chain_lanes<LanesAvx512>(),
                                        leaving_tree_lanes<LanesAvx512>(),

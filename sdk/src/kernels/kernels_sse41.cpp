@@ -9,6 +9,7 @@
 #include "kernels/lanes_sse41.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/range_lanes.h"
+#include "kernels/response_lanes.h"
 #include "kernels/tether_lanes.h"
 
 namespace lks {
@@ -21,6 +22,7 @@ constinit const Kernels kernels_sse41{LKS_SIMD_SSE41,
                                       range_lanes<LanesSse41>,
                                       near_box_lanes<LanesSse41>,
                                       near_plane_lanes<LanesSse41>,
+                                      response_lanes_but_boxes<LanesSse41>(),
                                       beyond_tether_lanes<LanesSse41>,
                                       chain_lanes<LanesSse41>(),
                                       no_tree_kernels,

@@ -17,6 +17,8 @@ struct LanesAvx2 {
     static constexpr std::uint32_t singles_together = 8;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 2;
+    // Fewer contacts of a group are faster one by one.
+    static constexpr std::uint32_t worth_a_response = 2;
     // Of several objects side by side more go over lanes, the same constraint of an object in each.
     static constexpr std::uint32_t worth_across = 3;
     // Parts of so many constraints roll (kernels/distance_rolling.h).

@@ -17,6 +17,8 @@ struct LanesAvx512 {
     static constexpr std::uint32_t singles_together = 6;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 3;
+    // Fewer contacts of a group are faster one by one.
+    static constexpr std::uint32_t worth_a_response = 3;
     // Of several objects side by side more go over lanes, the same constraint of an object in each.
     static constexpr std::uint32_t worth_across = 5;
     // Parts of so many constraints roll (kernels/distance_rolling.h).

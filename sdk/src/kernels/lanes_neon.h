@@ -23,6 +23,7 @@ struct LanesNeon {
     static constexpr bool has_signed_shift = true;
     static constexpr bool has_shift_each = true;
     static constexpr bool has_minimum_64 = false;
+    static constexpr bool has_multiply_low_64 = false;
     static constexpr bool has_mask_tests = false;
     static constexpr bool has_rounding_multiply_16 = true;
     static constexpr bool has_quick_shift = true;

@@ -18,12 +18,15 @@ struct LanesSse41 {
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 2;
     static constexpr std::uint32_t rolls_from = 0; // never
+    // Fewer contacts of a group are faster one by one.
+    static constexpr std::uint32_t worth_a_response = 2;
     using Register = __m128i;
     using Shift = __m128i;
     static constexpr bool has_signed_shift = false;
     static constexpr bool has_shift_each = false;
     static constexpr bool has_quick_shift = true;
     static constexpr bool has_minimum_64 = false;
+    static constexpr bool has_multiply_low_64 = false;
     static constexpr bool has_mask_tests = false;
     static constexpr bool has_rounding_multiply_16 = true;
     static constexpr bool packs_factors = false;

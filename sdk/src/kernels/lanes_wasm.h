@@ -24,6 +24,7 @@ struct LanesWasm {
     static constexpr bool has_signed_shift = false;
     static constexpr bool has_shift_each = false;
     static constexpr bool has_minimum_64 = false;
+    static constexpr bool has_multiply_low_64 = false;
     static constexpr bool has_mask_tests = false;
     // There is one that saturates, of which engines make five instructions for x86.
     static constexpr bool has_rounding_multiply_16 = false;
