@@ -23,6 +23,7 @@ struct Section {
 constexpr Section sections[] = {
     {snapshots_name, "save, load and hash of a 256² cloth beside memcpy"},
     {overhead_name, "a tick with next to nothing to do"},
+    {contacts_name, "a 64² cloth lies on a collider of each kind"},
     {ragdolls_name, "100 humanoids of 12 bodies fall on a plane, beside Bullet"},
     {pile_name, "30 humanoids of 15 bodies fall into a pit, beside Bullet"},
     {coupling_name, "12 humanoids with capes, ropes from hand to hand: what coupling costs, and its errors"},
@@ -92,6 +93,8 @@ bool measure(const std::string& part, const BenchOptions& options, Results& resu
         measure_snapshots(rounds, results);
     } else if (part == overhead_name) {
         measure_overhead(rounds, results);
+    } else if (part == contacts_name) {
+        measure_contacts(rounds, results);
     } else if (part == ragdolls_name) {
         measure_ragdolls(rounds, results);
     } else if (part == pile_name) {

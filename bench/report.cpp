@@ -139,6 +139,8 @@ std::string markdown(const Results& results, const std::vector<Plot>& plots) {
                   [](const Result& r) { return r.unit == "GB/s"; });
     text += table(results, "Fixed cost of a tick, ns", by_variant, by_measured,
                   [](const Result& r) { return r.workload == "overhead"; });
+    text += table(results, "A 64² cloth that lies on a collider, ms a tick", by_measured, by_variant,
+                  [](const Result& r) { return r.workload == "contacts"; });
     text +=
         table(results, "100 humanoids of 12 bodies that fall in a block: ms a tick, and joint errors in mm",
               by_variant, by_measured, [](const Result& r) { return r.workload == "ragdolls_100"; });

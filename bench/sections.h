@@ -8,6 +8,7 @@ namespace lks_bench {
 
 inline constexpr const char* snapshots_name = "snapshots";
 inline constexpr const char* overhead_name = "overhead";
+inline constexpr const char* contacts_name = "contacts";
 inline constexpr const char* ragdolls_name = "ragdolls_100";
 inline constexpr const char* pile_name = "ragdolls_pile";
 inline constexpr const char* coupling_name = "ragdolls_dressed";
@@ -23,6 +24,8 @@ void measure_workload(const Workload& workload, int rounds, bool thrifty, Result
 void measure_snapshots(int rounds, Results& results);
 // A tick in which there is next to nothing to do: of an empty world, and what one more object costs.
 void measure_overhead(int rounds, Results& results);
+// A 64² cloth that lies on a collider of each kind: milliseconds a tick.
+void measure_contacts(int rounds, Results& results);
 // 100 humanoids of 12 bodies fall in a block on a plane, and 30 of 15 bodies into a pit; nobody sleeps, 300
 // ticks (fewer with fewer than 21 rounds): milliseconds a tick, how far joints are apart and what energy is
 // gained, beside Bullet's rigid bodies; save, load and hash.

@@ -37,6 +37,8 @@ private:
     std::uint32_t passes_;
 };
 
+} // namespace
+
 std::vector<lks_simd> available_levels() {
     std::vector<lks_simd> levels;
     for (int level = LKS_SIMD_SCALAR; level <= LKS_SIMD_WASM; ++level) {
@@ -46,8 +48,6 @@ std::vector<lks_simd> available_levels() {
     }
     return levels;
 }
-
-} // namespace
 
 std::vector<std::string> variant_names(const Workload& workload) {
     std::vector<std::string> names = our_names();

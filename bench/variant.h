@@ -31,6 +31,8 @@ public:
 // The names of all that can solve this workload on this machine, ours first, then float32 with the same care,
 // plain float32, and packages. The first one is plain integers.
 std::vector<std::string> variant_names(const Workload& workload);
+// Instruction sets of this machine, plain integers first.
+std::vector<lks_simd> available_levels();
 // Those of them that are ours.
 std::vector<std::string> our_names();
 // The same of ours with two workers: for whole ticks only.

@@ -53,6 +53,9 @@ for measured in "projection", "tick":
         value(cloth, measured, variant)
 value(cloth, "in runs", "")
 value(measure("overhead"), "tick", "empty world")
+lying = measure("contacts")
+for support in "plane", "box", "15 capsules that turn":
+    value(lying, support, "scalar")
 for fall in "ragdolls_100", "ragdolls_pile":
     results = measure(fall)
     value(results, "ticks", "")

@@ -1,4 +1,4 @@
-// Every instruction set finds the least and the greatest of some numbers.
+// Every instruction set finds the least and the greatest of some numbers, and the greatest gap of pairs.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -11,24 +11,39 @@
 
 using namespace lks;
 
-TEST_CASE("kernels: every instruction set finds the least and the greatest of any numbers") {
+namespace {
+
+// Of all sizes; or so near each other that only the lower halves differ; and now and then the ends of the
+// range.
+std::vector<std::int64_t> any_values(test::Random& random, std::size_t count) {
+    const int bits = 1 + static_cast<int>(random.below(63));
+    const std::int64_t around = random.below(2) == 0 ? 0 : random.any_signed(62);
+    std::vector<std::int64_t> values(count);
+    for (std::int64_t& value : values) {
+        value = random.below(16) == 0 ? (random.below(2) == 0 ? INT64_MIN : INT64_MAX)
+                : bits < 62           ? around + random.any_signed(bits)
+                                      : random.any_signed(63);
+    }
+    return values;
+}
+
+std::vector<const Kernels*> all_kernels() {
     std::vector<const Kernels*> all = test::wide_kernels();
     all.push_back(&kernels_scalar);
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("kernels: every instruction set finds the least and the greatest of any numbers") {
+    const std::vector<const Kernels*> all = all_kernels();
     test::Random random(31);
     const std::uint64_t problems = test::sample_count() / 64; // of 64 numbers on the average
     std::uint64_t different = 0;
     for (std::uint64_t p = 0; p < problems; ++p) {
         const auto first = static_cast<std::uint32_t>(random.below(9));
         const auto count = static_cast<std::uint32_t>(1 + random.below(130));
-        // Of all sizes; or so near each other that only the lower halves differ; or the ends of the range.
-        const int bits = 1 + static_cast<int>(random.below(63));
-        const std::int64_t around = random.below(2) == 0 ? 0 : random.any_signed(62);
-        std::vector<std::int64_t> values(first + count);
-        for (std::int64_t& value : values) {
-            value = random.below(16) == 0 ? (random.below(2) == 0 ? INT64_MIN : INT64_MAX)
-                    : bits < 62           ? around + random.any_signed(bits)
-                                          : random.any_signed(63);
-        }
+        std::vector<std::int64_t> values = any_values(random, first + count);
         // What is not among them is beyond all of them.
         for (std::uint32_t i = 0; i < first; ++i) {
             values[i] = i % 2 == 0 ? INT64_MIN : INT64_MAX;
@@ -37,6 +52,33 @@ TEST_CASE("kernels: every instruction set finds the least and the greatest of an
         for (const Kernels* kernels : all) {
             const CoordinateRange range = kernels->range(values.data() + first, count);
             different += range.low != *low || range.high != *high ? 1 : 0;
+        }
+    }
+    CHECK(different == 0);
+}
+
+TEST_CASE("kernels: every instruction set finds the greatest gap of any pairs") {
+    const std::vector<const Kernels*> all = all_kernels();
+    test::Random random(32);
+    const std::uint64_t problems = test::sample_count() / 64; // of 64 pairs on the average
+    std::uint64_t different = 0;
+    for (std::uint64_t p = 0; p < problems; ++p) {
+        const auto first = static_cast<std::uint32_t>(random.below(9));
+        const auto count = static_cast<std::uint32_t>(1 + random.below(130));
+        std::vector<std::int64_t> a = any_values(random, first + count);
+        std::vector<std::int64_t> b = any_values(random, first + count);
+        std::uint64_t expected = 0;
+        for (std::uint32_t i = 0; i < first + count; ++i) {
+            if (i < first) { // what is not among them is further apart than all of them
+                a[i] = INT64_MIN;
+                b[i] = INT64_MAX;
+            } else {
+                const auto high = static_cast<std::uint64_t>(std::max(a[i], b[i]));
+                expected = std::max(expected, high - static_cast<std::uint64_t>(std::min(a[i], b[i])));
+            }
+        }
+        for (const Kernels* kernels : all) {
+            different += kernels->greatest_gap(a.data() + first, b.data() + first, count) != expected ? 1 : 0;
         }
     }
     CHECK(different == 0);

@@ -54,6 +54,7 @@ const lks::Kernels& dawdling() {
             dawdle();
             return prompt().range(values, count);
         },
+        prompt().greatest_gap,
         [](const lks::BoxTask& task, std::uint32_t first, std::uint32_t count) {
             dawdle();
             return prompt().near_box(task, first, count);

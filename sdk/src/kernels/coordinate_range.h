@@ -1,4 +1,5 @@
-// The least and the greatest of some numbers: what bounds of objects are made of. In plain integers.
+// The least and the greatest of some numbers, and how far two of a pair are apart at most: what bounds of
+// objects are made of. In plain integers.
 #pragma once
 
 #include <algorithm>
@@ -25,6 +26,16 @@ inline CoordinateRange range_scalar(const std::int64_t* values, std::size_t coun
         range = joined(range, {values[i], values[i]});
     }
     return range;
+}
+
+// Of a[i] and b[i].
+inline std::uint64_t greatest_gap_scalar(const std::int64_t* a, const std::int64_t* b, std::size_t count) {
+    std::uint64_t greatest = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto [low, high] = std::minmax(a[i], b[i]);
+        greatest = std::max(greatest, static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low));
+    }
+    return greatest;
 }
 
 } // namespace

@@ -25,6 +25,8 @@ struct Kernels {
     PredictionClamps (*predict)(const PredictionTask& task);
     // Of one number at least.
     CoordinateRange (*range)(const std::int64_t* values, std::size_t count);
+    // Of a[i] and b[i].
+    std::uint64_t (*greatest_gap)(const std::int64_t* a, const std::int64_t* b, std::size_t count);
     // Bit i: particle first + i may be touched; count ≤ 64.
     std::uint64_t (*near_box)(const BoxTask& task, std::uint32_t first, std::uint32_t count);
     std::uint64_t (*near_plane)(const PlaneTask& task, std::uint32_t first, std::uint32_t count);

@@ -55,5 +55,27 @@ inline CoordinateRange range_lanes(const std::int64_t* values, std::size_t count
     return a.range();
 }
 
+template <typename L>
+inline std::uint64_t greatest_gap_lanes(const std::int64_t* a, const std::int64_t* b, std::size_t count) {
+    using R = typename L::Register;
+    constexpr std::size_t step = 2 * L::half;
+    if (count < step) {
+        return greatest_gap_scalar(a, b, count);
+    }
+    // Less 2^63, so that they have signs.
+    R greatest[2] = {L::set(INT64_MIN), L::set(INT64_MIN)};
+    for (std::size_t i = 0; i < count; i += step) {
+        const std::size_t at = std::min(i, count - step);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const R x = L::load(a + at + k * L::half);
+            const R y = L::load(b + at + k * L::half);
+            const R gap = L::subtract(L::maximum_signed(x, y), L::minimum_signed(x, y));
+            greatest[k] = L::maximum_signed(greatest[k], L::exclusive_or(gap, L::set(INT64_MIN)));
+        }
+    }
+    const std::int64_t most = RangeLanes<L>(L::maximum_signed(greatest[0], greatest[1])).range().high;
+    return static_cast<std::uint64_t>(most) ^ (std::uint64_t{1} << 63);
+}
+
 } // namespace
 } // namespace lks

@@ -167,15 +167,10 @@ std::int64_t Object::greatest_motion() const {
     return static_cast<std::int64_t>(std::min<std::uint64_t>(greatest, substep_motion_limit));
 }
 
-std::int64_t Object::greatest_way() const {
+std::int64_t Object::greatest_way(const Kernels& kernels) const {
     std::uint64_t quarters = 0; // the sum may have 66 bits
     for (int i = 0; i < 3; ++i) {
-        std::uint64_t greatest = 0;
-        for (std::uint32_t k = 0; k < count(); ++k) {
-            const auto [low, high] = std::minmax(axis(i)[k], start_axis(i)[k]);
-            greatest = std::max(greatest, static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low));
-        }
-        quarters += greatest / 4 + 1;
+        quarters += kernels.greatest_gap(axis(i), start_axis(i), count()) / 4 + 1;
     }
     return quarters > INT64_MAX / 4 ? INT64_MAX : static_cast<std::int64_t>(4 * quarters);
 }

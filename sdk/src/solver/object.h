@@ -103,7 +103,7 @@ public:
     // Of any particle on any axis in the last substep, at most substep_motion_limit.
     std::int64_t greatest_motion() const;
     // A bound of the sum over the axes of how far any particle has come in the substep.
-    std::int64_t greatest_way() const;
+    std::int64_t greatest_way(const Kernels& kernels) const;
     // Of where some of the particles are and were at the start of the substep.
     Bounds swept_bounds(const Kernels& kernels, std::uint32_t first, std::uint32_t count) const;
 
