@@ -7,6 +7,13 @@
 
 namespace reference {
 
+// A turn within a substep goes no further about an axis: half a radian.
+template <typename Scalar>
+Vector3<Scalar> limited_turn(const Vector3<Scalar>& angle) {
+    const auto part = [](Scalar c) { return std::clamp(c, Scalar(-0.5), Scalar(0.5)); };
+    return {part(angle.x), part(angle.y), part(angle.z)};
+}
+
 template <typename Scalar>
 struct MovingBody {
     using Vec = Vector3<Scalar>;
@@ -25,6 +32,7 @@ struct MovingBody {
 
     bool moves;
     bool round = false;
+    bool jointed = false;
     Scalar mass;
     Scalar inverse_mass = 0;
     Vec inertia, inverse_inertia; // about its own axes
@@ -37,13 +45,22 @@ struct MovingBody {
     Vec start_position, predicted_position, uncarried_position;
     Quat start_orientation, predicted_orientation, uncarried_orientation;
     Vec force, torque;
+    Scalar load = 0; // (hω)² of its swing under what its joints pulled in the substep before
 
     void follow_rotation() { world_inverse = rotation.around(inverse_inertia); }
+    // A light link under a great tension swings faster than a substep can follow: beyond that it turns as if
+    // it were heavier.
+    void stiffen() {
+        const Scalar excess = load - 2;
+        if (excess > 0) {
+            world_inverse = rotation.around(inverse_inertia * (1 / (1 + excess)));
+        }
+    }
     Vec velocity_at(const Vec& lever) const { return velocity + cross(spin, lever); }
 
     // By an angle in world axes. Small turns leave the quaternion's length for the end of the substep.
     void turn(const Vec& angle) {
-        const Vec half_turn = angle * Scalar(0.5);
+        const Vec half_turn = limited_turn(angle) * Scalar(0.5);
         orientation = orientation.moved(half_turn);
         if (greatest(half_turn) > Scalar(1) / 256) {
             orientation = orientation.normalised();
@@ -88,19 +105,17 @@ public:
     void add(Scalar push, bool to_a, BodyMove<Scalar>& move) const {
         const Scalar p = to_a ? -push : push;
         move.shift = move.shift + direction_ * (p * (to_a ? mass_a_ : mass_b_));
-        move.angle = move.angle + (to_a ? turn_a_ : turn_b_) * p;
+        move.angle = limited_turn(move.angle + (to_a ? turn_a_ : turn_b_) * p);
     }
     // How far the moves part them, to first order.
     Scalar parted(const BodyMove<Scalar>& a, const BodyMove<Scalar>& b) const {
         return direction_.dot(b.shift - a.shift) + arm_b_.dot(b.angle) - arm_a_.dot(a.angle);
     }
     void accelerate(Scalar impulse, Body& a, Body& b) const {
-        BodyMove<Scalar> by_a, by_b;
-        add(impulse, by_a, by_b);
-        a.velocity = a.velocity + by_a.shift;
-        a.spin = a.spin + by_a.angle;
-        b.velocity = b.velocity + by_b.shift;
-        b.spin = b.spin + by_b.angle;
+        a.velocity = a.velocity - direction_ * (impulse * mass_a_);
+        a.spin = a.spin - turn_a_ * impulse;
+        b.velocity = b.velocity + direction_ * (impulse * mass_b_);
+        b.spin = b.spin + turn_b_ * impulse;
     }
 
 private:

@@ -46,6 +46,13 @@ void compare(RigidDistance& distance, const RigidSolver<double>& expected, std::
 
 RigidScene::RigidScene(const Settings& settings) : settings_(settings), world_(world_def(settings)) {}
 
+void RigidScene::add_collider(const lks_collider_def& def, bool bodies_touch) {
+    world_.add(def);
+    model_.colliders.push_back(rigid_collider(def));
+    touches_colliders_ = true;
+    touches_bodies_ = bodies_touch;
+}
+
 void RigidScene::add_ground(double static_friction, double dynamic_friction, bool bodies_touch,
                             const lks_rotation& rotation) {
     lks_collider_def def = lks_default_collider_def();
@@ -53,23 +60,19 @@ void RigidScene::add_ground(double static_friction, double dynamic_friction, boo
     def.static_friction = support::fixed(static_friction);
     def.dynamic_friction = support::fixed(dynamic_friction);
     def.transform.rotation = rotation;
-    world_.add(def);
-    model_.planes.push_back(rigid_plane(def));
-    touches_planes_ = true;
-    touches_bodies_ = bodies_touch;
+    add_collider(def, bodies_touch);
 }
 
 std::size_t RigidScene::add(const lks_body_shape& shape, lks_body_def def) {
     def.never_sleeps = 1;
-    if (!touches_planes_) {
+    if (!touches_colliders_) {
         def.filter.mask = 0;
     }
     def.filter.group = touches_bodies_ ? 0 : -1;
-    REQUIRE((!touches_bodies_ || shape.shape == LKS_SHAPE_SPHERE));
     REQUIRE(support::same(shape.transform.position, lks_vec3{})); // rigid_body() knows no other
     ids_.push_back(support::add_body(world_, shape, def.transform.position, def));
     model_.bodies.push_back(rigid_body(def, shape, support::mass_of(world_, ids_.back())));
-    model_.bodies.back().touches_planes = touches_planes_;
+    model_.bodies.back().touches_colliders = touches_colliders_;
     model_.bodies.back().touches_bodies = touches_bodies_;
     return ids_.size() - 1;
 }

@@ -26,8 +26,9 @@ class RigidScene {
 public:
     explicit RigidScene(const Settings& settings);
 
-    // A plane through the origin that is turned so. Bodies that are added from now on touch it, and, if they
-    // are to, each other (spheres only).
+    // Bodies that are added from now on touch colliders, and, if they are to, each other.
+    void add_collider(const lks_collider_def& def, bool bodies_touch);
+    // A plane through the origin that is turned so.
     void add_ground(double static_friction, double dynamic_friction, bool bodies_touch,
                     const lks_rotation& rotation = lks_transform_identity().rotation);
     // One shape with the body's own axes.
@@ -49,7 +50,7 @@ public:
 private:
     Settings settings_;
     support::World world_;
-    bool touches_planes_ = false;
+    bool touches_colliders_ = false;
     bool touches_bodies_ = false;
     std::vector<lks_body_id> ids_;
     std::vector<lks_joint_id> joints_;

@@ -1,5 +1,4 @@
-// Contacts of the rigid reference solver: of spheres, capsules and boxes with planes, and of spheres with
-// each other. The same rows in the same order as sdk/src/rigid/contact.h.
+// Contacts of the rigid reference solver. The same rows in the same order as sdk/src/rigid/contact.h.
 #pragma once
 
 #include <array>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "reference/rigid_body.h"
+#include "reference/rigid_manifold.h"
 
 namespace reference {
 
@@ -44,27 +44,39 @@ public:
     using Point = ContactPoint<Scalar>;
     using Move = BodyMove<Scalar>;
 
-    std::size_t a = 0, b = 0; // bodies, planes behind them
+    std::size_t a = 0, b = 0; // bodies, colliders behind them
     Scalar radius_a = 0, radius_b = 0;
     Scalar static_friction = 0, dynamic_friction = 0, restitution = 0;
-    bool jointed = false; // joints hold one of the bodies
-    Vec normal;           // from a to b
+    bool jointed = false;       // joints hold one of the bodies
+    bool every_substep = false; // its points are looked for in each, not once a tick
+    Vec normal;                 // from a to b
     std::vector<Point> points;
 
-    // Points take over the pushes of the tick before: of the same feature, or else of the nearest one that is
-    // left.
-    void take_pushes(std::vector<Point> old) {
-        std::vector<bool> known;
-        for (Point& point : points) {
-            const auto same = [&](const Point& p) { return p.feature == point.feature; };
-            known.push_back(take(old, std::find_if(old.begin(), old.end(), same), point));
+    // `manifold` is relative to a's centre of mass.
+    void take_manifold(const Manifold<Scalar>& manifold, const Body& body_a, const Body& body_b,
+                       const std::vector<Point>& old) {
+        normal = manifold.normal;
+        points.clear();
+        for (const ManifoldPoint<Scalar>& from : manifold.points) {
+            Point point;
+            point.feature = from.feature;
+            point.core_a = body_a.rotation.back(from.core_a);
+            point.core_b = body_b.rotation.back(from.core_b - (body_b.position - body_a.position));
+            points.push_back(point);
         }
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (!known[i]) {
-                take_nearest(old, points[i]);
+        take_pushes(old);
+    }
+    // Of its points, those that count in the next tick: what pushed, and what sticks in the other.
+    std::vector<Point> memory(bool keeps_side) const {
+        std::vector<Point> kept;
+        for (const Point& point : points) {
+            if (point.push != 0 || (keeps_side && point.separation < -sticking_depth)) {
+                kept.push_back(point);
             }
         }
+        return kept;
     }
+    static constexpr Scalar sticking_depth = Scalar(0.005);
 
     void begin(const Body& body_a, const Body& body_b, Scalar rate) {
         span();
@@ -244,6 +256,19 @@ private:
                                       : -std::min({depth / 32, depth * 15 / rate, Scalar(0.4) / rate});
     }
 
+    // Points take over old pushes: of the same feature, or else of the nearest one that is left.
+    void take_pushes(std::vector<Point> old) {
+        std::vector<bool> known;
+        for (Point& point : points) {
+            const auto same = [&](const Point& p) { return p.feature == point.feature; };
+            known.push_back(take(old, std::find_if(old.begin(), old.end(), same), point));
+        }
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!known[i]) {
+                take_nearest(old, points[i]);
+            }
+        }
+    }
     static bool take(std::vector<Point>& old, typename std::vector<Point>::iterator from, Point& to) {
         if (from == old.end()) {
             return false;
@@ -269,10 +294,8 @@ private:
 
     // Two directions across the normal, and across each other.
     void span() {
-        const Vec& n = normal;
-        const Vec some = std::abs(n.x) < std::abs(n.y) ? Vec{0, -n.z, n.y} : Vec{-n.z, 0, n.x};
-        across_[0] = some * (1 / some.length());
-        across_[1] = cross(n, across_[0]);
+        across_[0] = some_across(normal);
+        across_[1] = cross(normal, across_[0]);
     }
 
     Levers levers_now(const Point& point, const Body& body_a, const Body& body_b) const {

@@ -28,8 +28,12 @@ public:
     // Of the substep.
     Vec start;            // how far the points were apart at its beginning
     Vec lever_a, lever_b; // at the predicted pose
+    Vec push;             // kg·m, of the points
+    Scalar tension = 0;   // the same of the substep before
 
     void begin(const Body& body_a, const Body& body_b) {
+        tension = std::abs(push.x) + std::abs(push.y) + std::abs(push.z);
+        push = {};
         start = offset(body_a, body_b);
         turn_start_ = turned_apart(body_a, body_b);
         limits.begin(body_a, body_b);
@@ -42,6 +46,12 @@ public:
     void place_levers(const Body& body_a, const Body& body_b) {
         lever_a = body_a.rotation * point_a_;
         lever_b = body_b.rotation * point_b_;
+    }
+
+    // (hω)² of each body's swing across the lever under the tension.
+    void add_loads(Body& body_a, Body& body_b) const {
+        body_a.load += tension * swing_arm(body_a, point_a_);
+        body_b.load += tension * swing_arm(body_b, point_b_);
     }
 
     // After the prediction.
@@ -81,6 +91,17 @@ public:
     }
 
 private:
+    // |r|·(tr I⁻¹ − r̂ᵀI⁻¹r̂)
+    static Scalar swing_arm(const Body& body, const Vec& point) {
+        const Scalar length = point.length();
+        if (length == 0) {
+            return 0;
+        }
+        const Vec& inverse = body.inverse_inertia;
+        const Vec along = point * (1 / length);
+        return length * (inverse.x + inverse.y + inverse.z - along.dot(products(inverse, along)));
+    }
+
     bool holds_turn() const { return kind_ != LKS_JOINT_BALL; }
 
     // b against a, by a turning push.

@@ -31,9 +31,12 @@ Vector inertia_of(const lks_body_shape& shape) {
     return {(e.y * e.y + e.z * e.z) / 3, (e.z * e.z + e.x * e.x) / 3, (e.x * e.x + e.y * e.y) / 3};
 }
 
-RigidShape shape_of(const lks_body_shape& shape) {
+// Of a body's shape or of a collider.
+template <typename Definition>
+RigidShape shape_of(const Definition& shape) {
     const bool box = shape.shape == LKS_SHAPE_BOX;
-    return {shape.shape, box ? 0 : support::metres(shape.radius),
+    const bool round = shape.shape == LKS_SHAPE_SPHERE || shape.shape == LKS_SHAPE_CAPSULE;
+    return {shape.shape, round ? support::metres(shape.radius) : 0,
             shape.shape == LKS_SHAPE_CAPSULE ? support::metres(shape.half_length) : 0,
             box ? support::metres(shape.half_extents) : Vector{}};
 }
@@ -74,9 +77,28 @@ RigidJoint rigid_joint(const lks_joint_def& def, std::size_t a, std::size_t b) {
             radians(def.twist_max)};
 }
 
-RigidPlane rigid_plane(const lks_collider_def& def) {
+lks_joint_def joint_of_bone(const lks_bone* bones, std::uint32_t bone) {
+    const lks_bone& child = bones[bone];
+    const lks_bone& parent = bones[child.parent];
+    const auto subtract = [](const lks_vec3& a, const lks_vec3& b) {
+        return lks_vec3{a.x - b.x, a.y - b.y, a.z - b.z};
+    };
+    lks_joint_def def = lks_default_joint_def();
+    def.kind = child.joint_kind;
+    def.frame_a = def.frame_b = child.joint_frame;
+    def.frame_a.position = subtract(child.joint_frame.position, parent.body.transform.position);
+    def.frame_b.position = subtract(child.joint_frame.position, child.body.transform.position);
+    def.swing_limit = child.swing_limit;
+    def.swing_limit_z = child.swing_limit_z;
+    def.twist_min = child.twist_min;
+    def.twist_max = child.twist_max;
+    return def;
+}
+
+RigidCollider rigid_collider(const lks_collider_def& def) {
     return {support::metres(def.transform.position),
             rotation_of(def.transform.rotation),
+            shape_of(def),
             {support::metres(def.static_friction), support::metres(def.dynamic_friction), 0}};
 }
 

@@ -1,4 +1,4 @@
-// What a reference solver of rigid bodies simulates: bodies, joints and planes in plain numbers.
+// What a reference solver of rigid bodies simulates: bodies, joints and colliders in plain numbers.
 #pragma once
 
 #include <lockstitch/lockstitch.h>
@@ -22,7 +22,7 @@ struct RigidSurface {
 };
 
 struct RigidShape {
-    std::uint32_t kind; // lks_shape_kind: sphere, capsule or box
+    std::uint32_t kind; // lks_shape_kind
     double radius;      // 0: a box
     double half_length; // of a capsule, along y
     support::Vector half_extents;
@@ -37,8 +37,8 @@ struct RigidBody {
     support::Vector spin; // in world axes
     RigidShape shape;
     RigidSurface surface;
-    bool touches_planes = false;
-    bool touches_bodies = false; // spheres only
+    bool touches_colliders = false;
+    bool touches_bodies = false; // but those that a joint holds to it
 };
 
 struct RigidJoint {
@@ -51,9 +51,11 @@ struct RigidJoint {
     double twist_min, twist_max;
 };
 
-struct RigidPlane {
+// Stays where it is.
+struct RigidCollider {
     support::Vector position;
-    Rotation orientation; // local y is its normal
+    Rotation orientation; // local y is a plane's normal
+    RigidShape shape;
     RigidSurface surface;
 };
 
@@ -61,13 +63,15 @@ struct RigidPlane {
 struct RigidModel {
     std::vector<RigidBody> bodies;
     std::vector<RigidJoint> joints;
-    std::vector<RigidPlane> planes;
+    std::vector<RigidCollider> colliders;
 };
 
 // Of one shape with the body's own axes and centre, which touches nothing. `mass` counts, whatever the
 // density.
 RigidBody rigid_body(const lks_body_def& def, const lks_body_shape& shape, double mass);
 RigidJoint rigid_joint(const lks_joint_def& def, std::size_t a, std::size_t b);
-RigidPlane rigid_plane(const lks_collider_def& def);
+// Of a bone to its parent: bones that stand upright in the rest pose, each its own shape's middle.
+lks_joint_def joint_of_bone(const lks_bone* bones, std::uint32_t bone);
+RigidCollider rigid_collider(const lks_collider_def& def);
 
 } // namespace reference

@@ -25,6 +25,24 @@ Scalar greatest(const Vector3<Scalar>& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
+// By an axis's number.
+template <typename Scalar>
+Scalar component(const Vector3<Scalar>& v, int i) {
+    return i == 0 ? v.x : i == 1 ? v.y : v.z;
+}
+
+template <typename Scalar>
+Vector3<Scalar> along_axis(int i, Scalar length) {
+    return {i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0};
+}
+
+template <typename Scalar>
+Vector3<Scalar> some_across(const Vector3<Scalar>& v) {
+    const Vector3<Scalar> some =
+        std::abs(v.x) < std::abs(v.y) ? Vector3<Scalar>{0, -v.z, v.y} : Vector3<Scalar>{-v.z, 0, v.x};
+    return some * (1 / some.length());
+}
+
 template <typename Scalar>
 struct Matrix {
     using Vec = Vector3<Scalar>;
@@ -32,10 +50,7 @@ struct Matrix {
     Vec rows[3];
 
     Vec operator*(const Vec& v) const { return {rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)}; }
-    Vec column(int i) const {
-        const auto part = [i](const Vec& v) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
-        return {part(rows[0]), part(rows[1]), part(rows[2])};
-    }
+    Vec column(int i) const { return {component(rows[0], i), component(rows[1], i), component(rows[2], i)}; }
     // By the transposed.
     Vec back(const Vec& v) const { return rows[0] * v.x + rows[1] * v.y + rows[2] * v.z; }
     // R·diag·Rᵀ.

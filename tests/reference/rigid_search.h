@@ -1,11 +1,15 @@
-// Where bodies of the rigid reference solver touch: spheres, capsules and boxes on planes, spheres on each
-// other; once a tick, with room for the tick's motion.
+// Where bodies of the rigid reference solver touch: once a tick, with room for the tick's motion, and in each
+// substep what is fast or sticks in the other (sdk/src/rigid/contact_search.cpp).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "reference/rigid_contact.h"
+#include "reference/rigid_touch.h"
 
 namespace reference {
 
@@ -19,144 +23,171 @@ public:
 
     explicit ContactSearch(const RigidModel& model) : model_(model) {}
 
-    // `bodies`: the model's, and its planes behind them. In ascending order of pairs; those that pushed in
+    // `bodies`: the model's, and its colliders behind them. In ascending order of pairs; those that pushed in
     // the tick before go on with it.
-    std::vector<Contact> find(const std::vector<Body>& bodies, Scalar tick_rate,
+    std::vector<Contact> find(const std::vector<Body>& bodies, Scalar tick_rate, Scalar substep_rate,
                               const std::vector<Contact>& before) const {
         std::vector<Contact> found;
+        std::size_t next = 0; // of those before
         for (std::size_t a = 0; a < model_.bodies.size(); ++a) {
             for (std::size_t b = a + 1; b < bodies.size(); ++b) {
+                while (next < before.size() && std::pair(before[next].a, before[next].b) < std::pair(a, b)) {
+                    ++next;
+                }
+                const bool known = next < before.size() && before[next].a == a && before[next].b == b;
                 if (may_touch(a, b)) {
-                    Contact contact = touch(a, b, bodies);
-                    drop_what_stays_apart(contact, bodies, tick_rate);
-                    if (!contact.points.empty()) {
-                        contact.take_pushes(pushes_of(before, a, b));
-                        found.push_back(contact);
-                    }
+                    add(a, b, bodies, tick_rate, substep_rate, known ? &before[next] : nullptr, found);
                 }
             }
         }
         return found;
     }
 
+    // At the beginning of a substep: where its bodies are now, with what it pushed before.
+    void look_again(Contact& contact, const std::vector<Body>& bodies, Scalar substep_rate) const {
+        find_points(contact, bodies, substep_rate, contact.points.empty() ? Vec{} : contact.normal);
+    }
+
 private:
-    bool is_plane(std::size_t b) const { return b >= model_.bodies.size(); }
+    bool is_collider(std::size_t b) const { return b >= model_.bodies.size(); }
+    const RigidShape& shape_of(std::size_t i) const {
+        return is_collider(i) ? model_.colliders[i - model_.bodies.size()].shape : model_.bodies[i].shape;
+    }
 
     bool may_touch(std::size_t a, std::size_t b) const {
         const RigidBody& body = model_.bodies[a];
-        if (is_plane(b)) {
-            return body.touches_planes && body.mass > 0;
+        if (is_collider(b)) {
+            return body.touches_colliders && body.mass > 0;
         }
         const RigidBody& other = model_.bodies[b];
-        return body.touches_bodies && other.touches_bodies && (body.mass > 0 || other.mass > 0);
+        const auto holds = [&](const RigidJoint& joint) {
+            return (joint.a == a && joint.b == b) || (joint.a == b && joint.b == a);
+        };
+        return body.touches_bodies && other.touches_bodies && (body.mass > 0 || other.mass > 0) &&
+               std::none_of(model_.joints.begin(), model_.joints.end(), holds);
     }
 
-    static std::vector<Point> pushes_of(const std::vector<Contact>& before, std::size_t a, std::size_t b) {
-        std::vector<Point> pushes;
-        for (const Contact& contact : before) {
-            for (const Point& point : contact.points) {
-                if (contact.a == a && contact.b == b && point.push != 0) {
-                    pushes.push_back(point);
-                }
-            }
+    // Two figures part the shorter way.
+    static bool keeps_side(const Body& a, const Body& b) { return !a.jointed || !b.jointed; }
+
+    void add(std::size_t a, std::size_t b, const std::vector<Body>& bodies, Scalar tick_rate,
+             Scalar substep_rate, const Contact* before, std::vector<Contact>& found) const {
+        const Body& body_a = bodies[a];
+        const Body& body_b = bodies[b];
+        const Scalar turning = (turning_speed(a, bodies) + turning_speed(b, bodies)) / tick_rate;
+        const Scalar motion = sum(body_b.velocity - body_a.velocity) / tick_rate + turning;
+        const Piece<Scalar> piece_a = piece_of(a, body_a, body_a.position);
+        const Piece<Scalar> piece_b = piece_of(b, body_b, body_a.position);
+        if (are_apart(piece_a, piece_b, motion + near)) {
+            return;
         }
-        return pushes;
-    }
-
-    Contact touch(std::size_t a, std::size_t b, const std::vector<Body>& bodies) const {
-        const RigidBody& from = model_.bodies[a];
-        const RigidSurface& other =
-            is_plane(b) ? model_.planes[b - model_.bodies.size()].surface : model_.bodies[b].surface;
+        Manifold<Scalar> manifold = touch(piece_a, piece_b, motion + near, {});
+        const bool fast = motion > thickness(piece_a) + thickness(piece_b);
+        // Boxes beside each other show no points, and may yet meet at their edges.
+        const bool unclear = fast && manifold.points.empty();
+        // Of the motion only what closes the gap counts.
+        const Scalar closing =
+            std::max(Scalar(0), -manifold.normal.dot(body_b.velocity - body_a.velocity) / tick_rate);
+        std::erase_if(manifold.points, [&](const ManifoldPoint<Scalar>& point) {
+            return point.separation > near + closing + turning;
+        });
+        if (manifold.points.empty() && !unclear) {
+            return;
+        }
         Contact contact;
         contact.a = a;
         contact.b = b;
-        const auto mean = [](double p, double q) { return static_cast<Scalar>(std::sqrt(p * q)); };
-        contact.static_friction = mean(from.surface.static_friction, other.static_friction);
-        contact.dynamic_friction = mean(from.surface.dynamic_friction, other.dynamic_friction);
-        contact.restitution = static_cast<Scalar>(std::max(from.surface.restitution, other.restitution));
-        contact.radius_a = static_cast<Scalar>(from.shape.radius);
-        if (is_plane(b)) {
-            touch_plane(contact, bodies[a], bodies[b]);
-        } else {
-            const Vec way = bodies[b].position - bodies[a].position;
-            contact.radius_b = static_cast<Scalar>(model_.bodies[b].shape.radius);
-            contact.normal = way * (1 / way.length());
-            add(contact, {}, {}, 0);
-        }
-        return contact;
-    }
-
-    static void add(Contact& contact, const Vec& core_a, const Vec& core_b, std::uint32_t feature) {
-        Point point;
-        point.feature = feature;
-        point.core_a = core_a;
-        point.core_b = core_b;
-        contact.points.push_back(point);
-    }
-
-    void touch_plane(Contact& contact, const Body& body, const Body& plane) const {
-        const RigidShape& shape = model_.bodies[contact.a].shape;
-        const Vec up = plane.rotation.column(1);
-        contact.normal = up * Scalar(-1);
-        const auto add_local = [&](const Vec& local, std::uint32_t feature) {
-            const Vec point = body.position + body.rotation * local;
-            const Vec below = point - up * up.dot(point - plane.position);
-            add(contact, local, plane.rotation.back(below - plane.position), feature);
+        contact.jointed = body_a.jointed || body_b.jointed;
+        contact.radius_a = piece_a.radius;
+        contact.radius_b = piece_b.radius;
+        set_surface(contact);
+        const bool keeps = keeps_side(body_a, body_b);
+        const std::vector<Point> old = before != nullptr ? before->memory(keeps) : std::vector<Point>{};
+        const Vec side = keeps && !old.empty() ? before->normal : Vec{};
+        const bool passed = is_against(manifold.normal, side);
+        const auto sticks = [](const ManifoldPoint<Scalar>& point) {
+            return point.separation < -Contact::sticking_depth;
         };
-        if (shape.kind != LKS_SHAPE_BOX) {
-            const auto half = static_cast<Scalar>(shape.half_length);
-            add_local({0, half, 0}, 0);
-            if (half != 0) {
-                add_local({0, -half, 0}, 1);
-            }
-            return;
+        contact.every_substep =
+            fast || passed || std::any_of(manifold.points.begin(), manifold.points.end(), sticks);
+        contact.take_manifold(manifold, body_a, body_b, old);
+        if (passed) {
+            find_points(contact, bodies, substep_rate, side);
         }
-        // The corners of the face that looks most against the plane's normal.
-        const Vec local_up = body.rotation.back(up);
-        const Scalar parts[3] = {local_up.x, local_up.y, local_up.z};
-        const Scalar extents[3] = {static_cast<Scalar>(shape.half_extents.x),
-                                   static_cast<Scalar>(shape.half_extents.y),
-                                   static_cast<Scalar>(shape.half_extents.z)};
-        int face = 0;
-        for (int i = 1; i < 3; ++i) {
-            face = std::abs(parts[i]) > std::abs(parts[face]) ? i : face;
-        }
-        for (std::uint32_t corner = 0; corner < 4; ++corner) {
-            const bool first = (corner & 1u) != 0;
-            const bool second = (corner & 2u) != 0;
-            bool positive[3];
-            positive[face] = parts[face] < 0;
-            positive[(face + 1) % 3] = first;
-            positive[(face + 2) % 3] = second;
-            const auto at = [&](int i) { return positive[i] ? extents[i] : -extents[i]; };
-            const std::uint32_t feature =
-                (positive[0] ? 1u : 0u) | (positive[1] ? 2u : 0u) | (positive[2] ? 4u : 0u);
-            add_local({at(0), at(1), at(2)}, feature);
-        }
+        found.push_back(std::move(contact));
     }
 
-    // Of what may come to touch within the tick.
-    void drop_what_stays_apart(Contact& contact, const std::vector<Body>& bodies, Scalar tick_rate) const {
+    void find_points(Contact& contact, const std::vector<Body>& bodies, Scalar substep_rate,
+                     const Vec& side) const {
         const Body& a = bodies[contact.a];
         const Body& b = bodies[contact.b];
-        const auto sum = [](const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
-        const auto turning = [&](std::size_t i) {
-            return is_plane(i) ? Scalar(0) : sum(bodies[i].spin) * reach(model_.bodies[i].shape) / tick_rate;
-        };
-        const Scalar closing = std::max(Scalar(0), -contact.normal.dot(b.velocity - a.velocity) / tick_rate);
-        const Scalar most = Scalar(0.02) + closing + turning(contact.a) + turning(contact.b);
-        const auto stays_apart = [&](const Point& point) {
-            const Vec way = b.position - a.position + b.rotation * point.core_b - a.rotation * point.core_a;
-            return contact.normal.dot(way) - contact.radius_a - contact.radius_b > most;
-        };
-        std::erase_if(contact.points, stays_apart);
+        const Scalar speed = sum(a.velocity) + sum(b.velocity) + turning_speed(contact.a, bodies) +
+                             turning_speed(contact.b, bodies);
+        const Scalar margin = speed / substep_rate + near;
+        const Piece<Scalar> piece_a = piece_of(contact.a, a, a.position);
+        const Piece<Scalar> piece_b = piece_of(contact.b, b, a.position);
+        Manifold<Scalar> manifold(margin, 0);
+        manifold.normal = contact.normal;
+        if (!are_apart(piece_a, piece_b, margin)) {
+            manifold = touch(piece_a, piece_b, margin, keeps_side(a, b) ? side : Vec{});
+        }
+        contact.take_manifold(manifold, a, b, std::vector<Point>(contact.points));
     }
 
-    static Scalar reach(const RigidShape& shape) {
-        const support::Vector& e = shape.half_extents;
-        return static_cast<Scalar>(shape.kind == LKS_SHAPE_BOX ? e.length()
-                                                               : shape.radius + shape.half_length);
+    void set_surface(Contact& contact) const {
+        const RigidSurface& from = model_.bodies[contact.a].surface;
+        const RigidSurface& other = is_collider(contact.b)
+                                        ? model_.colliders[contact.b - model_.bodies.size()].surface
+                                        : model_.bodies[contact.b].surface;
+        const auto mean = [](double p, double q) { return static_cast<Scalar>(std::sqrt(p * q)); };
+        contact.static_friction = mean(from.static_friction, other.static_friction);
+        contact.dynamic_friction = mean(from.dynamic_friction, other.dynamic_friction);
+        contact.restitution = static_cast<Scalar>(std::max(from.restitution, other.restitution));
     }
+
+    // Relative to a place.
+    Piece<Scalar> piece_of(std::size_t i, const Body& body, const Vec& place) const {
+        const RigidShape& shape = shape_of(i);
+        Piece<Scalar> piece{shape.kind,
+                            static_cast<Scalar>(shape.radius),
+                            static_cast<Scalar>(shape.half_length),
+                            Vec(shape.half_extents),
+                            body.position - place,
+                            body.rotation};
+        if (shape.kind == LKS_SHAPE_PLANE) {
+            // Its nearest point.
+            const Vec up = piece.axes.column(1);
+            piece.centre = up * up.dot(piece.centre);
+        }
+        return piece;
+    }
+
+    static bool are_apart(const Piece<Scalar>& a, const Piece<Scalar>& b, Scalar margin) {
+        const auto reach = [](const Piece<Scalar>& piece) {
+            return piece.radius + piece.half_length + sum(piece.half_extents);
+        };
+        return b.kind != LKS_SHAPE_PLANE && greatest(b.centre - a.centre) > reach(a) + reach(b) + margin;
+    }
+
+    static Scalar thickness(const Piece<Scalar>& piece) {
+        const Vec& e = piece.half_extents;
+        return piece.kind == LKS_SHAPE_PLANE ? std::numeric_limits<Scalar>::max()
+               : piece.kind == LKS_SHAPE_BOX ? std::min({e.x, e.y, e.z})
+                                             : piece.radius;
+    }
+
+    static Scalar sum(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+    // Of its farthest point.
+    Scalar turning_speed(std::size_t i, const std::vector<Body>& bodies) const {
+        const RigidShape& shape = shape_of(i);
+        const double reach = shape.kind == LKS_SHAPE_PLANE ? 0
+                             : shape.kind == LKS_SHAPE_BOX ? shape.half_extents.length()
+                                                           : shape.radius + shape.half_length;
+        return sum(bodies[i].spin) * static_cast<Scalar>(reach);
+    }
+
+    static constexpr Scalar near = Scalar(0.02);
 
     RigidModel model_;
 };

@@ -5,13 +5,13 @@
 // joints by one linear solve with the velocities that follow, what hinges and fixed joints don't let turn by
 // a block each, limits and contacts by rows whose pushes only push, carried pushes with a factor for each
 // figure, impacts before the prediction, and errors undone without speed. What differs:
-//   - the points' system is one dense matrix, where the SDK eliminates it along the trees;
+//   - the points' system is a dense matrix for each figure, where the SDK eliminates it along its tree;
 //   - pushes are in kg·m, turns in radians: no shares, no units of length, no clamps; directions are as exact
 //     as the numbers, where the SDK has 30 fraction bits;
 //   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing;
 //   - the figures' factors are as exact as the numbers, where the SDK has motions of 26 fraction bits.
-// There are no contacts but of spheres with each other and of bodies with planes, no motors, friction of
-// joints, soft joints, loops, damping, sleep, and nothing that covers more than its own thickness in a tick.
+// A body has one shape. There are no motors, friction of joints, soft joints, loops, damping and sleep, and
+// no colliders that move.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,7 @@ public:
         for (const RigidBody& from : model.bodies) {
             bodies_.emplace_back(from);
         }
-        for (const RigidPlane& from : model.planes) {
+        for (const RigidCollider& from : model.colliders) {
             RigidBody still;
             still.position = from.position;
             still.orientation = from.orientation;
@@ -50,6 +50,7 @@ public:
         }
         for (const RigidJoint& from : model.joints) {
             joints_.emplace_back(from);
+            bodies_[from.a].jointed = bodies_[from.b].jointed = true;
         }
         find_figures();
     }
@@ -60,12 +61,9 @@ public:
                 body.rotation = body.orientation.matrix();
                 body.follow_rotation();
             }
-            contacts_ = search_.find(bodies_, static_cast<Scalar>(settings_.tick_rate_hz), contacts_);
-            for (Contact& contact : contacts_) {
-                contact.jointed = is_jointed(contact);
-            }
+            contacts_ = search_.find(bodies_, static_cast<Scalar>(settings_.tick_rate_hz), rate_, contacts_);
             for (int k = 0; k < settings_.substeps; ++k) {
-                substep();
+                substep(k == 0);
             }
             part_figures();
         }
@@ -96,6 +94,12 @@ private:
     using Contact = BodyContact<Scalar>;
     using Move = BodyMove<Scalar>;
 
+    // The joints of a figure.
+    struct JointTree {
+        std::vector<std::size_t> joints;
+        SymmetricSystem<Scalar> points; // at the predicted pose
+    };
+
     // Bodies that joints hold together have the number of one of them.
     void find_figures() {
         figures_.resize(bodies_.size());
@@ -106,14 +110,36 @@ private:
                 std::replace(figures_.begin(), figures_.end(), from, figures_[joint.a]);
             }
         }
+        for (std::size_t figure = 0; figure < bodies_.size(); ++figure) {
+            if (figures_[figure] != figure) {
+                continue;
+            }
+            JointTree tree;
+            tree.joints = joints_from(figure);
+            if (!tree.joints.empty()) {
+                trees_.push_back(std::move(tree));
+            }
+        }
     }
 
-    bool is_jointed(const Contact& contact) const {
-        return std::any_of(joints_.begin(), joints_.end(), [&](const Joint& joint) {
-            return joint.a == contact.a || joint.a == contact.b || joint.b == contact.a ||
-                   joint.b == contact.b;
-        });
+    // From the root on: all those of a body before those of its children.
+    std::vector<std::size_t> joints_from(std::size_t root) const {
+        std::vector<std::size_t> found;
+        std::vector<std::size_t> bodies{root};
+        for (std::size_t next = 0; next < bodies.size(); ++next) {
+            for (std::size_t i = 0; i < joints_.size(); ++i) {
+                const Joint& joint = joints_[i];
+                const bool holds =
+                    bodies_[bodies[next]].moves && (joint.a == bodies[next] || joint.b == bodies[next]);
+                if (holds && std::find(found.begin(), found.end(), i) == found.end()) {
+                    found.push_back(i);
+                    bodies.push_back(joint.a == bodies[next] ? joint.b : joint.a);
+                }
+            }
+        }
+        return found;
     }
+
     // Of two figures.
     bool is_shared(const Contact& contact) const {
         return bodies_[contact.a].moves && bodies_[contact.b].moves &&
@@ -141,8 +167,13 @@ private:
         }
     }
 
-    void substep() {
-        for_each_contact([this](Contact& contact, Body& a, Body& b) { contact.begin(a, b, rate_); });
+    void substep(bool first) {
+        for_each_contact([&](Contact& contact, Body& a, Body& b) {
+            if (contact.every_substep && !first) {
+                search_.look_again(contact, bodies_, rate_);
+            }
+            contact.begin(a, b, rate_);
+        });
         for_each_joint([](Joint& joint, Body& a, Body& b) { joint.begin(a, b); });
         strike_all();
         for (Body& body : bodies_) {
@@ -166,7 +197,12 @@ private:
                 }
             });
         }
-        undo_errors();
+        for (const JointTree& tree : trees_) {
+            undo_errors(tree);
+        }
+        for (Body& body : bodies_) {
+            body.orientation = body.orientation.normalised();
+        }
     }
 
     // As wholes, by the contacts of the last substep; what hangs on an anchor stays.
@@ -226,7 +262,7 @@ private:
 
     void sweep() {
         for_each_joint([](Joint& joint, Body& a, Body& b) { joint.project_turn(a, b); });
-        solve_points(true);
+        solve_points();
         for_each_contact([](Contact& contact, const Body& a, const Body& b) { contact.measure(a, b); });
         project_contacts(false, false);
         project_contacts(true, false);
@@ -236,7 +272,7 @@ private:
         for (std::size_t i = joints_.size(); i-- > 0;) {
             joints_[i].project_turn(bodies_[joints_[i].a], bodies_[joints_[i].b]);
         }
-        solve_points(true);
+        solve_points();
     }
 
     void project_contacts(bool shared, bool back) {
@@ -255,27 +291,40 @@ private:
         }
     }
 
-    // J·M⁻¹·Jᵀ of all joints' points, at the predicted pose.
+    // J·M⁻¹·Jᵀ of the joints' points, at the predicted pose.
     void factor_points() {
-        const std::size_t size = 3 * joints_.size();
-        std::vector<Scalar> matrix(size * size);
         for_each_joint([](Joint& joint, Body& a, Body& b) { joint.place_levers(a, b); });
-        const Vec axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        for (std::size_t column = 0; column < size; ++column) {
-            clear_pushes();
-            add_push(joints_[column / 3], axes[column % 3]);
-            for (std::size_t row = column; row < size; ++row) {
-                matrix[row * size + column] = point_motion(joints_[row / 3]).dot(axes[row % 3]);
-            }
+        for (Body& body : bodies_) {
+            body.load = 0;
         }
-        points_.factor(size, std::move(matrix));
+        for_each_joint([](const Joint& joint, Body& a, Body& b) { joint.add_loads(a, b); });
+        for (JointTree& tree : trees_) {
+            for_each_body(tree, [](Body& body) { body.stiffen(); });
+            const std::size_t size = 3 * tree.joints.size();
+            std::vector<Scalar> matrix(size * size);
+            for (std::size_t column = 0; column < size; ++column) {
+                clear_pushes(tree);
+                add_push(joints_[tree.joints[column / 3]],
+                         along_axis(static_cast<int>(column % 3), Scalar(1)));
+                for (std::size_t row = column; row < size; ++row) {
+                    const Vec motion = point_motion(joints_[tree.joints[row / 3]]);
+                    matrix[row * size + column] = component(motion, static_cast<int>(row % 3));
+                }
+            }
+            tree.points.factor(size, std::move(matrix));
+        }
     }
 
-    void clear_pushes() {
-        for (Body& body : bodies_) {
-            body.force = {};
-            body.torque = {};
+    template <typename Use>
+    void for_each_body(const JointTree& tree, const Use& use) {
+        for (const std::size_t i : tree.joints) {
+            use(bodies_[joints_[i].a]);
+            use(bodies_[joints_[i].b]);
         }
+    }
+
+    void clear_pushes(const JointTree& tree) {
+        for_each_body(tree, [](Body& body) { body.force = body.torque = {}; });
     }
 
     void add_push(const Joint& joint, const Vec& push) {
@@ -296,22 +345,31 @@ private:
     }
 
     // To where they were at the substep's start, or together.
-    void solve_points(bool to_start) {
-        if (joints_.empty()) {
-            return;
-        }
+    void solve_points(const JointTree& tree, bool to_start) {
         std::vector<Scalar> pushes;
-        for_each_joint([&](const Joint& joint, const Body& a, const Body& b) {
-            const Vec error = to_start ? joint.offset(a, b) - joint.start : joint.offset(a, b);
+        for (const std::size_t i : tree.joints) {
+            const Joint& joint = joints_[i];
+            const Vec offset = joint.offset(bodies_[joint.a], bodies_[joint.b]);
+            const Vec error = to_start ? offset - joint.start : offset;
             pushes.insert(pushes.end(), {-error.x, -error.y, -error.z});
-        });
-        points_.solve(pushes);
-        clear_pushes();
-        for (std::size_t i = 0; i < joints_.size(); ++i) {
-            add_push(joints_[i], {pushes[3 * i], pushes[3 * i + 1], pushes[3 * i + 2]});
         }
-        for (Body& body : bodies_) {
+        tree.points.solve(pushes);
+        clear_pushes(tree);
+        for (std::size_t k = 0; k < tree.joints.size(); ++k) {
+            Joint& joint = joints_[tree.joints[k]];
+            const Vec push{pushes[3 * k], pushes[3 * k + 1], pushes[3 * k + 2]};
+            add_push(joint, push);
+            joint.push = to_start ? joint.push + push : joint.push;
+        }
+        for_each_body(tree, [](Body& body) {
+            // Once each.
             Move{body.force * body.inverse_mass, body.world_inverse * body.torque}.apply_to(body);
+            body.force = body.torque = {};
+        });
+    }
+    void solve_points() {
+        for (const JointTree& tree : trees_) {
+            solve_points(tree, true);
         }
     }
 
@@ -323,9 +381,9 @@ private:
             contact.add_pushes(false, contact_moves_[contact.b]);
         }
         apply_contact_moves();
-        solve_points(true);
+        solve_points();
         if (scale_carried_pushes()) {
-            solve_points(true);
+            solve_points();
         }
     }
 
@@ -428,19 +486,19 @@ private:
 
     // Without giving speed: turns first, then the points. A limit that turns one bone back on its joint takes
     // the points along: some rounds bring both right.
-    void undo_errors() {
-        bool far_off = !joints_.empty();
+    void undo_errors(const JointTree& tree) {
+        bool far_off = true;
         for (int round = 0; round < 6 && far_off; ++round) {
             far_off = false;
-            for_each_joint([&](const Joint& joint, Body& a, Body& b) {
+            for (const std::size_t i : tree.joints) {
+                const Joint& joint = joints_[i];
+                Body& a = bodies_[joint.a];
+                Body& b = bodies_[joint.b];
                 far_off = joint.undo_turn(a, b) || far_off;
                 a.orientation = a.orientation.normalised();
                 b.orientation = b.orientation.normalised();
-            });
-            solve_points(false);
-        }
-        for (Body& body : bodies_) {
-            body.orientation = body.orientation.normalised();
+            }
+            solve_points(tree, false);
         }
     }
 
@@ -451,12 +509,12 @@ private:
     std::size_t body_count_;
     Scalar least_approach_;
     Scalar least_motion_;
-    std::vector<Body> bodies_; // planes behind them
+    std::vector<Body> bodies_; // colliders behind them
     std::vector<std::size_t> figures_;
     std::vector<Joint> joints_;
+    std::vector<JointTree> trees_;
     std::vector<Contact> contacts_;
     std::vector<Move> contact_moves_; // of a contact sweep, by body
-    SymmetricSystem<Scalar> points_;
 };
 
 } // namespace reference

@@ -37,17 +37,7 @@ void throw_humanoid(RigidScene& scene) {
             continue;
         }
         REQUIRE(bone.limit_compliance == 0);
-        // Bones stand upright in the rest pose, and each is its own shape's middle.
-        const lks_bone& parent = humanoid.bones[bone.parent];
-        lks_joint_def joint = lks_default_joint_def();
-        joint.kind = bone.joint_kind;
-        joint.frame_a = joint.frame_b = bone.joint_frame;
-        joint.frame_a.position = bone.joint_frame.position - parent.body.transform.position;
-        joint.frame_b.position = bone.joint_frame.position - bone.body.transform.position;
-        joint.swing_limit = bone.swing_limit;
-        joint.twist_min = bone.twist_min;
-        joint.twist_max = bone.twist_max;
-        scene.join(joint, bone.parent, body);
+        scene.join(joint_of_bone(humanoid.bones, static_cast<std::uint32_t>(body)), bone.parent, body);
     }
 }
 
