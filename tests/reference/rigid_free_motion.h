@@ -29,6 +29,7 @@ public:
                 }
                 body.spin = body.spin + body.rotation * change;
             }
+            body.spin = limited(body.spin);
             body.position = body.position + body.velocity * (1 / rate_);
             body.orientation = body.orientation.moved(body.spin * (Scalar(0.5) / rate_)).normalised();
         }
@@ -46,7 +47,7 @@ public:
         if (!(body.orientation == body.predicted_orientation)) {
             body.orientation = body.orientation.normalised();
             body.rotation = body.orientation.matrix();
-            body.spin = half_turn_between(body.start_orientation, body.orientation) * (2 * rate_);
+            body.spin = limited(half_turn_between(body.start_orientation, body.orientation) * (2 * rate_));
         }
         if (turns_freely(body)) {
             // From the middle of the substep to its end.
@@ -56,6 +57,13 @@ public:
     }
 
 private:
+    // A radian a substep about each axis, and 1000 rad/s.
+    Vec limited(const Vec& spin) const {
+        const Scalar most = std::min(rate_, Scalar(1000));
+        const auto part = [most](Scalar c) { return std::clamp(c, -most, most); };
+        return {part(spin.x), part(spin.y), part(spin.z)};
+    }
+
     // I⁻¹(IΩ × hΩ/2), in the body's axes; none where it would be more than a quarter of Ω.
     Vec gyroscopic_change(const Body& body, const Vec& spin) const {
         const Vec torque = cross(products(body.inertia, spin), spin * (Scalar(0.5) / rate_));

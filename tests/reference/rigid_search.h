@@ -23,6 +23,8 @@ public:
 
     explicit ContactSearch(const RigidModel& model) : model_(model) {}
 
+    void add(const RigidCollider& collider) { model_.colliders.push_back(collider); }
+
     // `bodies`: the model's, and its colliders behind them. In ascending order of pairs; those that pushed in
     // the tick before go on with it.
     std::vector<Contact> find(const std::vector<Body>& bodies, Scalar tick_rate, Scalar substep_rate,

@@ -6,8 +6,8 @@
 // a block each, limits and contacts by rows whose pushes only push, carried pushes with a factor for each
 // figure, impacts before the prediction, and errors undone without speed. What differs:
 //   - the points' system is a dense matrix for each figure, where the SDK eliminates it along its tree;
-//   - pushes are in kg·m, turns in radians: no shares, no units of length, no clamps; directions are as exact
-//     as the numbers, where the SDK has 30 fraction bits;
+//   - pushes are in kg·m, turns in radians: no shares, no units of length, no clamps but of turns;
+//     directions are as exact as the numbers, where the SDK has 30 fraction bits;
 //   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing;
 //   - the figures' factors are as exact as the numbers, where the SDK has motions of 26 fraction bits.
 // A body has one shape. There are no motors, friction of joints, soft joints, loops, damping and sleep, and
@@ -43,10 +43,7 @@ public:
             bodies_.emplace_back(from);
         }
         for (const RigidCollider& from : model.colliders) {
-            RigidBody still;
-            still.position = from.position;
-            still.orientation = from.orientation;
-            bodies_.emplace_back(still);
+            add_still(from);
         }
         for (const RigidJoint& from : model.joints) {
             joints_.emplace_back(from);
@@ -69,8 +66,16 @@ public:
         }
     }
 
+    // Between two ticks.
+    void add(const RigidCollider& collider) {
+        search_.add(collider);
+        figures_.push_back(bodies_.size());
+        add_still(collider);
+    }
+
     std::size_t size() const { return body_count_; }
     support::Vector position(std::size_t body) const { return bodies_[body].position.widened(); }
+    support::Vector velocity(std::size_t body) const { return bodies_[body].velocity.widened(); }
     Rotation orientation(std::size_t body) const {
         const Quaternion<Scalar>& q = bodies_[body].orientation;
         return {q.x, q.y, q.z, q.w};
@@ -93,6 +98,13 @@ private:
     using Joint = HeldJoint<Scalar>;
     using Contact = BodyContact<Scalar>;
     using Move = BodyMove<Scalar>;
+
+    void add_still(const RigidCollider& collider) {
+        RigidBody still;
+        still.position = collider.position;
+        still.orientation = collider.orientation;
+        bodies_.emplace_back(still);
+    }
 
     // The joints of a figure.
     struct JointTree {

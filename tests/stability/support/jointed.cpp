@@ -21,6 +21,11 @@ reference::Settings settings_of(const lks_world_def& def) {
 
 Jointed::Jointed(const lks_world_def& settings) : RigidScene(settings_of(settings)) {}
 
+void Jointed::add_later(const lks_collider_def& collider) {
+    world().add(collider);
+    twin().add(reference::rigid_collider(collider));
+}
+
 void Jointed::add_chain(std::uint32_t links, double ratio, double damping) {
     std::size_t above = add_anchor({});
     for (std::uint32_t i = 0; i < links; ++i) {
@@ -38,14 +43,13 @@ void Jointed::add_chain(std::uint32_t links, double ratio, double damping) {
 }
 
 void Jointed::step(int ticks) {
-    twin();
     for (int i = 0; i < ticks; ++i) {
         world().step();
-        twin_->tick();
+        twin().tick();
     }
 }
 
-const reference::RigidSolver<float>& Jointed::twin() const {
+reference::RigidSolver<float>& Jointed::twin() const {
     if (twin_ == nullptr) {
         twin_ = std::make_unique<reference::RigidSolver<float>>(model(), settings());
     }

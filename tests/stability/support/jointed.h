@@ -1,5 +1,5 @@
 // Bodies on joints and on the ground in a world of the SDK, and the float32 twin of them beside it. The twin
-// knows no bodies that touch each other (but spheres), no motors and no damping.
+// knows no motors and no damping.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,11 @@ public:
     Jointed(const Jointed&) = delete;
 
     using RigidScene::add_ground;
-    void add_ground(double friction) { add_ground(friction, friction, false); }
+    void add_ground(double friction, bool bodies_touch = false) {
+        add_ground(friction, friction, bodies_touch);
+    }
+    // Once it runs.
+    void add_later(const lks_collider_def& collider);
     // `links` capsules of 30 cm in a level chain on an anchor, the last of them so many times as heavy. What
     // damps them, 1/s, the twin does not know.
     void add_chain(std::uint32_t links, double ratio, double damping = 0);
@@ -35,9 +39,10 @@ public:
     double twin_energy() const;
     support::Vector position(std::size_t body) const { return state_of(world(), id(body)).position; }
     support::Vector twin_position(std::size_t body) const { return twin().position(body); }
+    support::Vector twin_velocity(std::size_t body) const { return twin().velocity(body); }
 
 private:
-    const reference::RigidSolver<float>& twin() const;
+    reference::RigidSolver<float>& twin() const;
 
     mutable std::unique_ptr<reference::RigidSolver<float>> twin_; // once all is there
 };
