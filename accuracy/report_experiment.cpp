@@ -156,7 +156,7 @@ Plot draw_experiment(const Experiment& experiment) {
     }
 
     script.command("set title '" + experiment.title +
-                   ": where particles are'\nset format x '%g'\nset xlabel 'substeps of one iteration'\n"
+                   ": places'\nset format x '%g'\nset xlabel 'substeps of one iteration'\n"
                    "set ylabel 'm'");
     const auto one_iteration = [](const reference::Schedule& s) { return s.iterations == 1; };
     const auto curve = [&](const std::string& solver, std::size_t quantity, const std::string& looks) {
@@ -194,8 +194,8 @@ Section report_experiment(const Experiment& experiment) {
                         "of what is seen.\n\n" +
                         budget_table(experiment, "fixed-point" + suffix);
         if (experiment.has_rounding) {
-            section.text += "\nWhere particles are" + suffix + ", one iteration a substep:\n\n" +
-                            rounding_table(experiment, suffix);
+            section.text +=
+                "\nPlaces" + suffix + ", one iteration a substep:\n\n" + rounding_table(experiment, suffix);
         }
     }
     for (std::size_t quantity = 0; quantity < experiment.quantities.size(); ++quantity) {

@@ -9,12 +9,14 @@
 
 #include "bullet_crowd.h"
 #include "bullet_peer.h"
+#include "crowd_twin.h"
 #include "our_crowd.h"
 
 namespace lks_accuracy {
 namespace {
 
 constexpr int repetitions = 3;
+constexpr int reference_substeps = 320;
 
 // Each tick's cost is the least of three falls, which are the same.
 Row fall(const std::string& solver, const reference::Schedule& schedule, const lks_bench::Crowd& crowd,
@@ -51,21 +53,79 @@ Row fall(const std::string& solver, const reference::Schedule& schedule, const l
     return row;
 }
 
+std::unique_ptr<lks_bench::OurCrowd> make_ours(const lks_bench::Crowd& crowd,
+                                               const reference::Schedule& schedule) {
+    return std::make_unique<lks_bench::OurCrowd>(crowd, static_cast<std::uint32_t>(schedule.substeps),
+                                                 static_cast<std::uint32_t>(schedule.iterations));
+}
+
+using Places = std::vector<support::Vector>;
+
+double largest_distance(const Places& a, const Places& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        largest = std::max(largest, (a[i] - b[i]).length());
+    }
+    return largest;
+}
+
+// Where bones are after so many ticks.
+Places our_places(const lks_bench::Crowd& crowd, const reference::Schedule& schedule, int ticks) {
+    const std::unique_ptr<lks_bench::OurCrowd> world = make_ours(crowd, schedule);
+    for (int tick = 0; tick < ticks; ++tick) {
+        world->tick();
+    }
+    Places places;
+    for (const lks_body_id body : world->bodies()) {
+        lks_transform transform;
+        lks_body_transform(world->world(), body, &transform);
+        places.push_back(support::metres(transform.position));
+    }
+    return places;
+}
+
+Places twin_places(const lks_bench::Crowd& crowd, const reference::Schedule& schedule, bool single,
+                   int ticks) {
+    const std::unique_ptr<CrowdTwin> world = make_crowd_twin(crowd, schedule, single);
+    for (int tick = 0; tick < ticks; ++tick) {
+        world->tick();
+    }
+    return world->positions();
+}
+
 } // namespace
 
+Row fall_of_ours(const reference::Schedule& schedule, int ticks) {
+    const lks_bench::CrowdStairs crowd;
+    return fall(
+        "fixed-point", schedule, crowd, [&] { return make_ours(crowd, schedule); }, ticks);
+}
+
 Experiment measure_stairs(const Grid& grid, int ticks, const Progress& progress) {
-    Experiment experiment{"ragdoll_stairs", "Ragdolls, stairs",
-                          "Four humanoids of 15 bodies stumble down ten steps; " +
-                              std::to_string(ticks / 60) +
-                              " seconds. Falls are chaotic: no places are compared."};
+    // Until chance has its way with them.
+    const int early = std::min(ticks, 18);
+    Experiment experiment{
+        "ragdoll_stairs", "Ragdolls, stairs",
+        "Four humanoids of 15 bodies stumble down ten steps; " + std::to_string(ticks / 60) +
+            " seconds. Falls are chaotic: places are compared after " + std::to_string(early) + " ticks."};
     experiment.quantities = {
         {"joint separation, mean", "mm",
          "how far the points that a joint holds together are apart; 0 is right", 1},
         {"joint separation, worst", "mm", "the most that any joint is in any tick", 10},
         {"energy gained", "%",
-         "the most that energy rises again, relative to what they start with; 0 is right", 5}};
+         "the most that energy rises again, relative to what they start with; 0 is right", 5},
+        {"deviation", "m",
+         "the farthest that any bone is from the converged solution after " + std::to_string(early) +
+             " ticks"},
+        {"rounding", "m",
+         "the farthest that any bone is then from the same method in double precision at the same setting"}};
     experiment.unit_of_work = "body";
+    experiment.has_rounding = true;
+    experiment.discretisation = 3;
+    experiment.rounding = 4;
     const lks_bench::CrowdStairs crowd;
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const Places converged = twin_places(crowd, {reference_substeps, 1}, false, early);
     for (const int substeps : grid.substeps) {
         for (const int iterations : grid.iterations) {
             const reference::Schedule schedule{substeps, iterations};
@@ -73,16 +133,27 @@ Experiment measure_stairs(const Grid& grid, int ticks, const Progress& progress)
                 continue;
             }
             progress("ragdoll_stairs: " + label_of(schedule));
-            const auto ours = [&] {
-                return std::make_unique<lks_bench::OurCrowd>(crowd, static_cast<std::uint32_t>(substeps),
-                                                             static_cast<std::uint32_t>(iterations));
+            const Places twin = twin_places(crowd, schedule, false, early);
+            const auto add = [&](Row row, const Places& places, double rounding) {
+                row.errors.push_back(largest_distance(places, converged));
+                row.errors.push_back(rounding);
+                experiment.rows.push_back(std::move(row));
             };
-            experiment.rows.push_back(fall("fixed-point", schedule, crowd, ours, ticks));
+            const Places ours = our_places(crowd, schedule, early);
+            add(fall_of_ours(schedule, ticks), ours, largest_distance(ours, twin));
+            for (const bool single : {true, false}) {
+                const auto make = [&] { return make_crowd_twin(crowd, schedule, single); };
+                const Places places = single ? twin_places(crowd, schedule, true, early) : twin;
+                add(fall(single ? "float32" : "double", schedule, crowd, make, ticks), places,
+                    single ? largest_distance(places, twin) : unknown);
+            }
         }
         // Bullet's own iterations are ten a step, and stay so.
         if (lks_bench::has_bullet() && substeps <= grid.most_passes) {
             const auto bullet = [&] { return lks_bench::make_bullet_crowd(crowd, substeps); };
-            experiment.rows.push_back(fall("Bullet", {substeps, 10}, crowd, bullet, ticks));
+            Row row = fall("Bullet", {substeps, 10}, crowd, bullet, ticks);
+            row.errors.insert(row.errors.end(), {unknown, unknown});
+            experiment.rows.push_back(std::move(row));
         }
     }
     return experiment;
