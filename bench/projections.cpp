@@ -31,10 +31,17 @@ Projections::Work Projections::work_of(lks::Object* const* objects, std::uint32_
     Work work;
     work.distances.set_allocator(world_->allocator);
     work.places.resize(count);
-    if (!work.distances.reserve(object.asset().batches.size())) {
+    work.scratch.set_allocator(world_->allocator);
+    if (!work.distances.reserve(object.asset().batches.size()) ||
+        !work.scratch.reserve(lks::row_words(object.asset()))) {
         throw std::bad_alloc();
     }
-    prepare_distances(object.asset(), object.coefficients(), arrays, work.distances);
+    if (is_swept_in_rows(*world_->kernels, object.asset())) {
+        work.particles = object.count();
+        work.rows.emplace(object, work.scratch.data());
+    }
+    prepare_distances(object.asset(), object.coefficients(), work.rows ? work.rows->arrays() : arrays,
+                      work.rows.has_value(), work.distances);
     put_side_by_side(objects, count, work.distances, work.places.data());
     return work;
 }
@@ -42,8 +49,14 @@ Projections::Work Projections::work_of(lks::Object* const* objects, std::uint32_
 void Projections::run(std::uint32_t passes) {
     for (const Work& work : work_) {
         for (std::uint32_t pass = 0; pass < passes; ++pass) {
+            if (work.rows) {
+                work.rows->take(*world_->kernels, 0, work.particles);
+            }
             for (const lks::DistanceTask& task : work.distances.tasks) {
                 world_->kernels->project_distances(task);
+            }
+            if (work.rows) {
+                work.rows->give_back(*world_->kernels, 0, work.particles);
             }
         }
     }

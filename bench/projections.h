@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "solver/distance.h"
+#include "solver/particle_rows.h"
 #include "solver/world.h"
 
 namespace lks_bench {
@@ -24,6 +26,10 @@ private:
     struct Work {
         lks::DistanceWork distances;
         std::vector<std::ptrdiff_t> places;
+        // Where they are swept in rows, which are taken and given back in each pass, as in each substep.
+        lks::Array<std::int64_t> scratch;
+        std::optional<lks::ParticleRows> rows;
+        std::uint32_t particles = 0;
     };
     Work work_of(lks::Object* const* objects, std::uint32_t count) const;
 

@@ -1,6 +1,10 @@
 #include "support/builders.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
+#include <utility>
 
 namespace support {
 
@@ -117,6 +121,34 @@ Mesh wavy_mesh(std::uint32_t side, double width) {
             mesh.triangles.insert(mesh.triangles.end(), {corner, corner + side, corner + 1});
             mesh.triangles.insert(mesh.triangles.end(), {corner + 1, corner + side, corner + side + 1});
         }
+    }
+    return mesh;
+}
+
+Mesh irregular_mesh(std::uint32_t side, double width) {
+    std::mt19937 chance(7); // its numbers are fixed by the standard
+    Mesh mesh = wavy_mesh(side, width);
+    for (std::size_t quad = 0; quad < mesh.triangles.size(); quad += 6) {
+        if (chance() % 2 == 0) {
+            std::uint32_t* corners = &mesh.triangles[quad];
+            corners[2] = corners[5];
+            corners[4] = corners[5];
+            corners[5] = corners[3];
+            corners[3] = corners[0];
+        }
+    }
+    std::vector<std::uint32_t> place(mesh.vertices.size() / 3);
+    std::iota(place.begin(), place.end(), 0u);
+    for (std::size_t i = place.size(); i > 1; --i) {
+        std::swap(place[i - 1], place[chance() % i]);
+    }
+    std::vector<double> vertices(mesh.vertices.size());
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        std::copy_n(&mesh.vertices[3 * i], 3, &vertices[3 * std::size_t{place[i]}]);
+    }
+    mesh.vertices = vertices;
+    for (std::uint32_t& vertex : mesh.triangles) {
+        vertex = place[vertex];
     }
     return mesh;
 }

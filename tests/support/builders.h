@@ -61,5 +61,7 @@ struct Mesh {
     lks_cloth_def def() const;
 };
 Mesh wavy_mesh(std::uint32_t side, double width);
+// The same with diagonals by chance and vertices in no order: hardly any of its constraints stand in runs.
+Mesh irregular_mesh(std::uint32_t side, double width);
 
 } // namespace support

@@ -263,6 +263,35 @@ Problem solved(const Kernels& kernels, const Batch& batch, const Kind& kind, Pro
     return problem;
 }
 
+// Of which the kernel finds the positions in rows.
+Problem solved_in_rows(const Kernels& kernels, const Batch& batch, const Kind& kind, Problem problem,
+                       ConstraintRange range) {
+    const std::uint32_t n = batch.particles;
+    const std::size_t room = n + widest_group;
+    std::vector<std::int64_t> axes(6 * room);
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+        std::copy_n(&problem.positions[axis * n], n, &axes[axis * room]);
+    }
+    std::vector<std::int64_t> rows(2 * row_length * room, INT64_MIN);
+    std::int64_t* x = axes.data();
+    const RowTask now{x, x + room, x + 2 * room, rows.data()};
+    const RowTask start{x + 3 * room, x + 4 * room, x + 5 * room, rows.data() + row_length * room};
+    kernels.rows.take(now, 0, n);
+    kernels.rows.take(start, 0, n);
+
+    const BatchPart part = make_part(batch, problem, range);
+    DistanceTask task = make_task(batch, kind, problem, part);
+    task.in_rows = true;
+    task.arrays = {now.rows,       now.rows + 1,   now.rows + 2,           start.rows,
+                   start.rows + 1, start.rows + 2, task.arrays.multipliers};
+    kernels.project_distances(task);
+    kernels.rows.give_back(now, 0, n);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::copy_n(&axes[axis * room], n, &problem.positions[axis * n]);
+    }
+    return problem;
+}
+
 // The runs of several problems that have all but the positions in common.
 void solve_side_by_side(const Kernels& kernels, const Batch& batch, const Kind& kind,
                         std::vector<Problem>& problems) {
@@ -333,6 +362,42 @@ TEST_CASE("kernels: parts of every length about which groups begin to roll are p
                 }
             }
             CHECK(different == 0);
+        }
+    }
+}
+
+TEST_CASE("kernels: in rows they project random and extreme edges as plain integers do in arrays") {
+    // From one constraint to more than begin to roll, whole batches and parts.
+    const auto problems = static_cast<int>(test::sample_count() / 20000);
+    for (const Kernels* kernels : test::wide_kernels()) {
+        if (kernels->rows.take == nullptr) {
+            continue;
+        }
+        test::Random random(43);
+        for (const Kind& kind : kinds) {
+            INFO(std::string(simd_name(kernels->level)), ": ", std::string(kind.name));
+            int different = 0;
+            int unchanged = 0;
+            for (int p = 0; p < problems; ++p) {
+                const Batch batch(random, lengths_up_to(p % 5 == 0 ? 3 : 30));
+                const auto end = static_cast<std::uint32_t>(batch.constraints.size());
+                ConstraintRange range{0, end};
+                if (p % 3 != 0) {
+                    const std::uint64_t longest = p % 3 == 1 ? 40 : end;
+                    range.first = static_cast<std::uint32_t>(random.bits() % end);
+                    range.last = range.first + static_cast<std::uint32_t>(
+                                                   random.bits() %
+                                                   (std::min<std::uint64_t>(longest, end - range.first) + 1));
+                }
+                const Problem problem = make_problem(random, batch, kind);
+                const Problem expected = solved(kernels_scalar, batch, kind, problem, range);
+                const Problem actual = solved_in_rows(*kernels, batch, kind, problem, range);
+                different += expected.positions != actual.positions ? 1 : 0;
+                different += expected.multipliers != actual.multipliers ? 1 : 0;
+                unchanged += p % 3 == 0 && actual.positions == problem.positions ? 1 : 0;
+            }
+            CHECK(different == 0);
+            CHECK(unchanged == 0);
         }
     }
 }

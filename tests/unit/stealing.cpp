@@ -67,6 +67,7 @@ const lks::Kernels& dawdling() {
         },
         prompt().chain,
         prompt().trees,
+        prompt().rows,
         prompt().hash_update};
     return kernels;
 }

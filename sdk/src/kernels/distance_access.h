@@ -1,10 +1,13 @@
 // Where a group of constraints finds the coordinates of its ends and its coefficients, and leaves what it
-// changes: a stretch of a run, some of one, or constraints with ends anywhere.
+// changes: a stretch of a run, some of one, or constraints with ends anywhere, in arrays or in rows.
 #pragma once
+
+#include <type_traits>
 
 #include "kernels/distance_task.h"
 #include "kernels/factors.h"
 #include "kernels/force_inline.h"
+#include "kernels/row_task.h"
 #include "solver/wrapping.h"
 
 namespace lks {
@@ -30,11 +33,25 @@ LKS_FORCE_INLINE Group<L> lane_mask(std::uint32_t first) {
     return {L::load(lane_bits + first), L::load(lane_bits + first + L::half)};
 }
 
+// How far both ends of a group are from each other along an axis.
+template <typename L, typename Access>
+struct AxisDifferences {
+    const Access& at;
+    const std::int64_t* const* axes;
+
+    LKS_FORCE_INLINE Group<L> operator()(int axis) const {
+        const Group<L> a = at.load_a(axes[axis]);
+        const Group<L> b = at.load_b(axes[axis]);
+        return {L::subtract(a.a, b.a), L::subtract(a.b, b.b)};
+    }
+};
+
 // A stretch in which both ends advance by one.
 template <typename L>
 struct RunAccess {
     static constexpr std::uint32_t together = L::together;
     static constexpr bool whole = true;
+    static constexpr bool in_rows = false;
 
     std::uint32_t constraint;
     std::ptrdiff_t a;
@@ -91,6 +108,7 @@ template <typename L>
 struct PartialAccess {
     static constexpr std::uint32_t together = L::together;
     static constexpr bool whole = false;
+    static constexpr bool in_rows = false;
 
     RunAccess<L> run;
     std::uint32_t count;
@@ -156,49 +174,32 @@ private:
     }
 };
 
-// Constraints that follow each other in the batch, with ends anywhere; lanes from `count` on repeat the first
-// one and are not stored.
-template <typename L>
-struct SinglesAccess {
+// Constraints that follow each other in the batch, with ends anywhere. `full`: there are as many as lanes;
+// otherwise lanes from `count` on repeat the first one and are not moved.
+template <typename L, bool full>
+struct ListedConstraints {
     static constexpr std::uint32_t lanes = 2 * L::half;
-    static constexpr std::uint32_t together = L::singles_together;
     static constexpr bool whole = true;
 
     std::uint32_t constraint;
     std::uint32_t count;
-    Constraint ends[lanes];
+    std::conditional_t<full, const Constraint*, Constraint[lanes]> ends;
 
     std::uint32_t first_constraint() const { return constraint; }
+    static void clear_done(const Factors<L>&) {}
 
     void take(const Constraint* constraints, std::uint32_t first, std::uint32_t number) {
         constraint = first;
         count = number;
-        for (std::uint32_t i = 0; i < lanes; ++i) {
-            ends[i] = constraints[first + (i < number ? i : 0)];
+        if constexpr (full) {
+            ends = constraints + first;
+        } else {
+            for (std::uint32_t i = 0; i < lanes; ++i) {
+                ends[i] = constraints[first + (i < number ? i : 0)];
+            }
         }
     }
-    template <typename Use>
-    void for_each(const Use& use) const {
-        for (std::uint32_t i = 0; i < count; ++i) {
-            use(constraint + i, place_of(ends[i].a), place_of(ends[i].b));
-        }
-    }
-    static void clear_done(const Factors<L>&) {}
 
-    LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
-        return {L::gather(x, &ends[0].a), L::gather(x, &ends[L::half].a)};
-    }
-    LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
-        return {L::gather(x, &ends[0].b), L::gather(x, &ends[L::half].b)};
-    }
-    LKS_FORCE_INLINE void move(std::int64_t* x, const Group<L>& plus_a, const Group<L>& minus_b) const {
-        const LaneValues<L> a(plus_a);
-        const LaneValues<L> b(minus_b);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            x[ends[i].a] = wrapping_add(x[ends[i].a], a.values[i]);
-            x[ends[i].b] = wrapping_subtract(x[ends[i].b], b.values[i]);
-        }
-    }
     LKS_FORCE_INLINE Group<L> load_wide(const std::int64_t* values) const {
         std::int64_t parts[lanes] = {};
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -214,6 +215,88 @@ struct SinglesAccess {
     }
     LKS_FORCE_INLINE Factors<L> load(const std::uint32_t* values) const {
         return FactorsOf<L>::load(values + constraint);
+    }
+
+protected:
+    // Each with the places of its ends in arrays with `stride` numbers a particle.
+    template <std::ptrdiff_t stride, typename Use>
+    LKS_FORCE_INLINE void for_each_place(const Use& use) const {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            use(constraint + i, stride * place_of(ends[i].a), stride * place_of(ends[i].b));
+        }
+    }
+    template <std::ptrdiff_t stride>
+    LKS_FORCE_INLINE void move_each(std::int64_t* x, const Group<L>& plus_a, const Group<L>& minus_b) const {
+        const LaneValues<L> a(plus_a);
+        const LaneValues<L> b(minus_b);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            std::int64_t* x_a = x + stride * place_of(ends[i].a);
+            std::int64_t* x_b = x + stride * place_of(ends[i].b);
+            *x_a = wrapping_add(*x_a, a.values[i]);
+            *x_b = wrapping_subtract(*x_b, b.values[i]);
+        }
+    }
+};
+
+// In arrays, from which each lane is gathered.
+template <typename L>
+struct SinglesAccess : ListedConstraints<L, false> {
+    static constexpr std::uint32_t together = L::singles_together;
+    static constexpr std::ptrdiff_t stride = 1;
+    static constexpr bool in_rows = false;
+
+    template <typename Use>
+    void for_each(const Use& use) const {
+        this->template for_each_place<stride>(use);
+    }
+    LKS_FORCE_INLINE Group<L> load_a(const std::int64_t* x) const {
+        return {L::gather(x, &this->ends[0].a), L::gather(x, &this->ends[L::half].a)};
+    }
+    LKS_FORCE_INLINE Group<L> load_b(const std::int64_t* x) const {
+        return {L::gather(x, &this->ends[0].b), L::gather(x, &this->ends[L::half].b)};
+    }
+    LKS_FORCE_INLINE void move(std::int64_t* x, const Group<L>& plus_a, const Group<L>& minus_b) const {
+        this->template move_each<stride>(x, plus_a, minus_b);
+    }
+};
+
+// In rows.
+template <typename L, bool full>
+struct RowsAccess : ListedConstraints<L, full> {
+    static constexpr std::uint32_t together = L::together;
+    static constexpr std::ptrdiff_t stride = row_length;
+    static constexpr bool in_rows = true;
+
+    template <typename Use>
+    void for_each(const Use& use) const {
+        this->template for_each_place<stride>(use);
+    }
+
+    // Of both ends, along each axis.
+    struct Differences {
+        Group<L> along[3];
+        LKS_FORCE_INLINE const Group<L>& operator()(int axis) const { return along[axis]; }
+    };
+    LKS_FORCE_INLINE Differences differences(const std::int64_t* rows) const {
+        typename L::Register a[3];
+        typename L::Register b[3];
+        L::row_differences(rows, &this->ends[0].a, a);
+        L::row_differences(rows, &this->ends[L::half].a, b);
+        return {{{a[0], b[0]}, {a[1], b[1]}, {a[2], b[2]}}};
+    }
+    LKS_FORCE_INLINE void move(std::int64_t* rows, const Group<L>& plus_x, const Group<L>& plus_y,
+                               const Group<L>& plus_z, const Group<L>& minus_x, const Group<L>& minus_y,
+                               const Group<L>& minus_z) const {
+        if (full || this->count == this->lanes) [[likely]] {
+            L::move_rows(rows, &this->ends[0].a, {plus_x.a, plus_y.a, plus_z.a},
+                         {minus_x.a, minus_y.a, minus_z.a});
+            L::move_rows(rows, &this->ends[L::half].a, {plus_x.b, plus_y.b, plus_z.b},
+                         {minus_x.b, minus_y.b, minus_z.b});
+        } else {
+            this->template move_each<stride>(rows, plus_x, minus_x);
+            this->template move_each<stride>(rows + 1, plus_y, minus_y);
+            this->template move_each<stride>(rows + 2, plus_z, minus_z);
+        }
     }
 };
 

@@ -31,9 +31,9 @@ struct Sums<L, false> {
 };
 
 // A group that rolls (kernels/distance_rolling.h).
-template <typename L>
+template <typename L, typename Access>
 struct RollingGroup {
-    RunAccess<L> at;
+    Access at;
     StagedGroup<L> staged;
     bool apart; // it can't move as most do
 };
@@ -65,9 +65,7 @@ public:
     LKS_FORCE_INLINE void find_differences(const Access& at, StagedGroup<L>& group) const {
         R beyond = L::set(0);
         OfDifferences sums;
-        for (int axis = 0; axis < 3; ++axis) {
-            find_difference(at, axis, group.d, sums, beyond);
-        }
+        find_each_difference(at, group.d, sums, beyond);
         group.u = sums.u;
         if constexpr (damped) {
             group.motion = sums.motion;
@@ -129,26 +127,34 @@ public:
     }
 
     // The first group that rolls.
-    LKS_FORCE_INLINE void begin(RollingGroup<L>& group, OfDifferences& sums) const {
+    template <typename Access>
+    LKS_FORCE_INLINE void begin(RollingGroup<L, Access>& group, OfDifferences& sums) const {
         R beyond = L::set(0);
-        for (int axis = 0; axis < 3; ++axis) {
-            find_difference(group.at, axis, group.staged.d, sums, beyond);
-        }
+        find_each_difference(group.at, group.staged.d, sums, beyond);
         look_at<true>(group.staged, sums, beyond);
     }
 
     // From the sums of a group and f of the one before it the sums of the next and f of its own.
     // Between the steps of its square root the differences of the next are found, and the one before moves,
     // as both ends are alike. `in_octave`: the group's lengths are.
-    template <bool in_octave>
-    LKS_FORCE_INLINE void roll(const RollingGroup<L>& before, const RollingGroup<L>& now,
-                               RollingGroup<L>& next, OfDifferences& sums, N& f) const {
+    template <bool in_octave, typename Access>
+    LKS_FORCE_INLINE void roll(const RollingGroup<L, Access>& before, const RollingGroup<L, Access>& now,
+                               RollingGroup<L, Access>& next, OfDifferences& sums, N& f) const {
         R beyond = L::set(0);
         OfDifferences of_next;
         const N gain = rounded_gain_shift_.factors(F::multiply_signed(before.at.load(task_.shares_a), f));
         const auto meanwhile = [&](int axis) {
-            find_difference(next.at, axis, next.staged.d, of_next, beyond);
-            move_axis(before.at, axis, before.staged.d[axis], gain);
+            if constexpr (Access::in_rows) {
+                if (axis == 1) {
+                    find_each_difference(next.at, next.staged.d, of_next, beyond);
+                } else if (axis == 2) {
+                    move_by_gain(before.at, before.staged.d, gain);
+                }
+            } else {
+                find_difference(next.at, differences(next.at, axes_), start_differences(next.at), axis,
+                                next.staged.d, of_next, beyond);
+                move_axis(before.at, axis, before.staged.d[axis], gain);
+            }
         };
         const Aligned<L, 1> aligned = align_sum<in_octave>(sums.u);
         const auto words = reciprocal_sqrt_lanes<L, 1>(aligned.m, meanwhile);
@@ -170,14 +176,43 @@ public:
     }
 
 private:
-    // d along one axis, and what it adds to the group's squares.
+    // In rows coordinates stand together, in arrays each axis by itself.
+    template <typename Access, typename Axes>
+    LKS_FORCE_INLINE static auto differences(const Access& at, const Axes& axes) {
+        if constexpr (Access::in_rows) {
+            return at.differences(axes[0]);
+        } else {
+            return AxisDifferences<L, Access>{at, axes};
+        }
+    }
+
     template <typename Access>
-    LKS_FORCE_INLINE void find_difference(const Access& at, int axis, N* d, OfDifferences& sums,
-                                          R& beyond) const {
-        const N now = lifted_difference(at, axes_[axis], beyond);
+    LKS_FORCE_INLINE auto start_differences([[maybe_unused]] const Access& at) const {
+        if constexpr (damped) {
+            return differences(at, starts_);
+        } else {
+            return NothingElse{};
+        }
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE void find_each_difference(const Access& at, N* d, OfDifferences& sums, R& beyond) const {
+        const auto now = differences(at, axes_);
+        const auto start = start_differences(at);
+        for (int axis = 0; axis < 3; ++axis) {
+            find_difference(at, now, start, axis, d, sums, beyond);
+        }
+    }
+
+    // d along one axis, and what it adds to the group's squares.
+    template <typename Access, typename Now, typename Start>
+    LKS_FORCE_INLINE void find_difference(const Access& at, const Now& wide,
+                                          [[maybe_unused]] const Start& wide_start, int axis, N* d,
+                                          OfDifferences& sums, R& beyond) const {
+        const N now = lifted_difference(at, wide(axis), beyond);
         d[axis] = Narrowing<L>::unlifted(now);
         if constexpr (damped) {
-            const N start = lifted_difference(at, starts_[axis], beyond);
+            const N start = lifted_difference(at, wide_start(axis), beyond);
             add_product(sums.motion, axis, d[axis], F::difference(now, start));
         }
         add_product(sums.u, axis, d[axis], d[axis]);
@@ -265,10 +300,7 @@ private:
 
     // x_a − x_b in difference units, lifted.
     template <typename Access>
-    LKS_FORCE_INLINE N lifted_difference(const Access& at, const std::int64_t* x, R& beyond) const {
-        const G a = at.load_a(x);
-        const G b = at.load_b(x);
-        G wide{L::subtract(a.a, b.a), L::subtract(a.b, b.b)};
+    LKS_FORCE_INLINE N lifted_difference(const Access& at, G wide, R& beyond) const {
         if constexpr (!Access::whole) {
             wide = at.masked(wide);
         }
@@ -420,9 +452,20 @@ private:
 
     template <typename Access>
     LKS_FORCE_INLINE void move_alike(const Access& at, const N* d, const N& f, const N& share) const {
-        const N gain = rounded_gain_shift_.factors(F::multiply_signed(share, f));
-        for (int axis = 0; axis < 3; ++axis) {
-            move_axis(at, axis, d[axis], gain);
+        move_by_gain(at, d, rounded_gain_shift_.factors(F::multiply_signed(share, f)));
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE void move_by_gain(const Access& at, const N* d, const N& gain) const {
+        if constexpr (Access::in_rows) {
+            const G x = to_coordinate(F::multiply_signed(d[0], gain));
+            const G y = to_coordinate(F::multiply_signed(d[1], gain));
+            const G z = to_coordinate(F::multiply_signed(d[2], gain));
+            at.move(axes_[0], x, y, z, x, y, z);
+        } else {
+            for (int axis = 0; axis < 3; ++axis) {
+                move_axis(at, axis, d[axis], gain);
+            }
         }
     }
 
@@ -471,8 +514,14 @@ private:
         const G alike = F::equal(share_a, share_b);
         const LongGain gain_a = long_gain(share_a, f, alike);
         const LongGain gain_b = long_gain(share_b, f, alike);
-        for (int axis = 0; axis < 3; ++axis) {
-            at.move(axes_[axis], long_product(d[axis], gain_a), long_product(d[axis], gain_b));
+        if constexpr (Access::in_rows) {
+            at.move(axes_[0], long_product(d[0], gain_a), long_product(d[1], gain_a),
+                    long_product(d[2], gain_a), long_product(d[0], gain_b), long_product(d[1], gain_b),
+                    long_product(d[2], gain_b));
+        } else {
+            for (int axis = 0; axis < 3; ++axis) {
+                at.move(axes_[axis], long_product(d[axis], gain_a), long_product(d[axis], gain_b));
+            }
         }
     }
 

@@ -9,6 +9,8 @@
 // long, or shorter than 2^16) is projected in plain integers, which gives the same bits.
 #pragma once
 
+#include <algorithm>
+
 #include "kernels/distance_groups.h"
 #include "kernels/distance_rolling.h"
 #include "kernels/distance_scalar_loop.h"
@@ -227,19 +229,18 @@ private:
     PartialAccess<L> short_[PartialAccess<L>::together];
 };
 
-// Whether it pays that the part's groups roll: there are many, and not all have ends with shares of their
-// own.
+// Whether it pays that `count` constraints of a part roll: there are many, and not all of the part's have
+// ends with shares of their own.
 template <typename L>
-inline bool rolls(const BatchPart& part) {
+inline bool rolls(const BatchPart& part, std::uint32_t count) {
     const ConstraintRange unequal = part.unequal_shares;
-    return singles(part).first - part.range.first >= L::rolls_from &&
-           !(unequal.first <= part.range.first && part.range.last <= unequal.last);
+    return count >= L::rolls_from && !(unequal.first <= part.range.first && part.range.last <= unequal.last);
 }
 
 template <typename L, typename Groups, typename Stage>
 LKS_NEVER_INLINE void project_rolling(const BatchPart& part, const Groups& groups, const Stage& stages) {
     RunGroups<L, Stage> runs(part, stages);
-    Rolling<L, Groups, Stage>(groups, stages).project(runs);
+    Rolling<L, RunAccess<L>, Groups, Stage>(groups, stages).project(runs);
     runs.finish();
 }
 
@@ -264,7 +265,7 @@ inline void project_in_stages(const BatchPart& part, const Stage& stages) {
 template <typename L, bool may_roll, typename Groups, typename Stage>
 inline void project_runs(const BatchPart& part, const Groups& groups, const Stage& stages) {
     if constexpr (may_roll) {
-        if (rolls<L>(part)) {
+        if (rolls<L>(part, singles(part).first - part.range.first)) {
             project_rolling<L>(part, groups, stages);
             return;
         }
@@ -272,26 +273,60 @@ inline void project_runs(const BatchPart& part, const Groups& groups, const Stag
     project_in_stages<L>(part, stages);
 }
 
-template <typename L, typename Stage>
-inline void project_singles(const DistanceTask& task, const BatchPart& part, const Stage& stages) {
-    constexpr std::uint32_t lanes = 2 * L::half;
-    SinglesAccess<L> groups[SinglesAccess<L>::together];
-    ConstraintRange rest = singles(part);
+template <typename L, typename Access, typename Stage>
+inline void project_listed(const DistanceTask& task, ConstraintRange rest, const Stage& stages) {
+    constexpr std::uint32_t lanes = Access::lanes;
+    Access groups[Access::together];
     std::uint32_t count = 0;
     while (rest.first + L::worth_a_group <= rest.last) {
-        const std::uint32_t left = rest.last - rest.first;
-        const std::uint32_t number = left < lanes ? left : lanes;
+        const std::uint32_t number = std::min(rest.last - rest.first, lanes);
         groups[count++].take(task.constraints, rest.first, number);
         rest.first += number;
-        if (count == SinglesAccess<L>::together || rest.first + L::worth_a_group > rest.last) {
+        if (count == Access::together || rest.first + L::worth_a_group > rest.last) {
             stages.project(groups, count);
             count = 0;
         }
     }
     for (; rest.first < rest.last; ++rest.first) {
         const Constraint& ends = task.constraints[rest.first];
-        stages.project_one(rest.first, place_of(ends.a), place_of(ends.b));
+        stages.project_one(rest.first, Access::stride * place_of(ends.a), Access::stride * place_of(ends.b));
     }
+}
+
+// Takes whole groups from the beginning of what is left of a batch.
+template <typename Access>
+class ListedGroups {
+public:
+    ListedGroups(const Constraint* constraints, ConstraintRange& rest)
+        : constraints_(constraints), rest_(rest) {}
+
+    bool take_one(Access& next) { return take_more(next); }
+    LKS_FORCE_INLINE bool take_more(Access& next) {
+        if (rest_.last - rest_.first < Access::lanes) {
+            return false;
+        }
+        next.take(constraints_, rest_.first, Access::lanes);
+        rest_.first += Access::lanes;
+        return true;
+    }
+
+private:
+    const Constraint* constraints_;
+    ConstraintRange& rest_;
+};
+
+template <typename L, bool may_roll, typename Groups, typename Stage>
+inline void project_rows(const DistanceTask& task, const BatchPart& part, const Groups& groups,
+                         const Stage& stages) {
+    ConstraintRange rest = part.range;
+    if constexpr (may_roll) {
+        if (rolls<L>(part, rest.last - rest.first)) {
+            using Access = RowsAccess<L, true>;
+            ListedGroups<Access> listed(task.constraints, rest);
+            Rolling<L, Access, Groups, Stage>(groups, stages).project(listed);
+        }
+    }
+    project_listed<L, RowsAccess<L, false>>(task, rest, stages);
 }
 
 template <typename L, bool soft, bool damped, bool multiplier>
@@ -303,6 +338,12 @@ inline void project_in_groups(const DistanceTask& task) {
     for (std::uint32_t p = 0; p < task.part_count; ++p) {
         const BatchPart& part = task.parts[p];
         const Stages<L, Groups, ProjectOne> stages(groups, project_one, part.unequal_shares);
+        if constexpr (L::has_rows) {
+            if (task.in_rows) {
+                project_rows<L, L::rolls_from != 0 && !multiplier>(task, part, groups, stages);
+                continue;
+            }
+        }
         if constexpr (L::rolls_from != 0 && !multiplier) {
             if (task.objects != nullptr) {
                 SideBySide<L, Groups, Stages<L, Groups, ProjectOne>>(task, part, groups, stages).project();
@@ -313,7 +354,7 @@ inline void project_in_groups(const DistanceTask& task) {
             project_runs<L, L::rolls_from != 0 && !multiplier>(part, groups, stages);
         }
         if (part.first_single < part.range.last) {
-            project_singles<L>(task, part, stages);
+            project_listed<L, SinglesAccess<L>>(task, singles(part), stages);
         }
     }
 }

@@ -16,7 +16,7 @@
 namespace lks {
 namespace {
 
-template <typename L, typename Groups, typename Stage>
+template <typename L, typename Access, typename Groups, typename Stage>
 class Rolling {
 public:
     Rolling(const Groups& groups, const Stage& stages) : groups_(groups), stages_(stages) {}
@@ -61,15 +61,15 @@ private:
             f_ = FactorsOf<L>::none();
         }
         const Groups groups = groups_; // so that what is stored can't be thought to change it
-        RollingGroup<L>* before = before_;
-        RollingGroup<L>* now = now_;
-        RollingGroup<L>* next = next_;
+        RollingGroup<L, Access>* before = before_;
+        RollingGroup<L, Access>* now = now_;
+        RollingGroup<L, Access>* next = next_;
         auto sums = sums_;
         Factors<L> f = f_;
         do {
             groups.template roll<in_octave>(*before, *now, *next, sums, f);
             next->apart = is_apart(*next);
-            RollingGroup<L>* const free = before;
+            RollingGroup<L, Access>* const free = before;
             before = now;
             now = next;
             next = free;
@@ -82,21 +82,21 @@ private:
         f_ = f;
     }
 
-    LKS_FORCE_INLINE bool is_apart(const RollingGroup<L>& group) const {
+    LKS_FORCE_INLINE bool is_apart(const RollingGroup<L, Access>& group) const {
         return group.staged.plain || (stages_.may_differ(group.at) && !groups_.alike(group.at));
     }
 
-    LKS_NEVER_INLINE void settle(RollingGroup<L>& group) {
+    LKS_NEVER_INLINE void settle(RollingGroup<L, Access>& group) {
         group.staged.f = f_;
         stages_.move_apart(group.at, group.staged);
     }
 
     const Groups& groups_;
     const Stage& stages_;
-    RollingGroup<L> slots_[3];
-    RollingGroup<L>* before_ = &slots_[0];
-    RollingGroup<L>* now_ = &slots_[1];
-    RollingGroup<L>* next_ = &slots_[2];
+    RollingGroup<L, Access> slots_[3];
+    RollingGroup<L, Access>* before_ = &slots_[0];
+    RollingGroup<L, Access>* now_ = &slots_[1];
+    RollingGroup<L, Access>* next_ = &slots_[2];
     typename Groups::OfDifferences sums_; // of the group whose turn it is
     Factors<L> f_;                        // of the one before
     bool in_octave_ = false;              // all until now

@@ -17,6 +17,7 @@ struct AcrossAccess {
     static constexpr std::uint32_t lanes = 2 * L::half;
     static constexpr std::uint32_t together = L::singles_together;
     static constexpr bool whole = true;
+    static constexpr bool in_rows = false;
 
     std::uint32_t constraint;
     std::uint32_t a;
@@ -64,7 +65,7 @@ public:
         }
     }
 
-    void project() { Rolling<L, Groups, Stage>(groups_, stages_).project(*this); }
+    void project() { Rolling<L, RunAccess<L>, Groups, Stage>(groups_, stages_).project(*this); }
 
     // The next group that rolls. False: there is none.
     bool take_one(RunAccess<L>& next) {

@@ -71,6 +71,9 @@ struct DistanceTask {
     bool short_runs; // of less than widest_group constraints on the average of each batch
     bool soft;
     bool damped;
+    // Each of the arrays begins within rows of row_length (kernels/row_task.h), and runs are not asked for.
+    // Not all kernels take them (kernels.h).
+    bool in_rows;
     DistanceParameters parameters;
     const Constraint* constraints;
     // By constraint; kernels read up to widest_group - 1 of each behind the last one.

@@ -10,6 +10,7 @@
 #include "kernels/distance_task.h"
 #include "kernels/prediction_task.h"
 #include "kernels/response_task.h"
+#include "kernels/row_task.h"
 #include "kernels/tether_task.h"
 #include "kernels/tree_task.h"
 
@@ -35,6 +36,7 @@ struct Kernels {
     std::uint64_t (*beyond_tether)(const TetherTask& task, std::uint32_t first, std::uint32_t count);
     ChainKernels chain;
     TreeKernels trees;
+    RowKernels rows; // null where project_distances takes no rows
     // XXH3_64bits_update.
     void (*hash_update)(void* state, const void* bytes, std::size_t size);
 };

@@ -11,6 +11,7 @@
 #include "kernels/prediction_lanes.h"
 #include "kernels/range_lanes.h"
 #include "kernels/response_lanes.h"
+#include "kernels/row_lanes.h"
 #include "kernels/tether_lanes.h"
 #include "kernels/tree_lanes.h"
 
@@ -29,6 +30,7 @@ constinit const Kernels kernels_avx2{LKS_SIMD_AVX2,
                                      leaving<LanesAvx2, beyond_tether_lanes<LanesAvx2>>,
                                      leaving_chain_lanes<LanesAvx2>(),
                                      leaving_tree_lanes<LanesAvx2>(),
+                                     leaving_row_lanes<LanesAvx2>(),
                                      leaving<LanesAvx2, hash_update>};
 
 } // namespace lks

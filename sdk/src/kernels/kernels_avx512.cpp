@@ -17,6 +17,7 @@
 #include "kernels/prediction_lanes.h"
 #include "kernels/range_lanes.h"
 #include "kernels/response_lanes.h"
+#include "kernels/row_lanes.h"
 #include "kernels/tether_lanes.h"
 #include "kernels/tree_lanes.h"
 
@@ -47,6 +48,7 @@ constinit const Kernels kernels_avx512{LKS_SIMD_AVX512,
                                        leaving<LanesAvx512, beyond_tether_lanes<LanesAvx512>>,
                                        leaving_chain_lanes<LanesAvx512>(),
                                        leaving_tree_lanes<LanesAvx512>(),
+                                       leaving_row_lanes<LanesAvx512, LanesAvx2>(),
                                        leaving<LanesAvx512, hash_update>};
 
 } // namespace lks

@@ -3,6 +3,7 @@
 
 #include <immintrin.h>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace lks {
@@ -48,6 +49,55 @@ struct LanesAvx2 {
     static Register gather(const std::int64_t* p, const std::ptrdiff_t* at) {
         return _mm256_set_epi64x(p[at[3]], p[at[2]], p[at[1]], p[at[0]]);
     }
+
+    // Rows of a particle (kernels/row_task.h).
+    static constexpr bool has_rows = true;
+    template <typename Int>
+    static Int* row(Int* rows, std::uint32_t particle) {
+        return rows + 4 * std::size_t{particle};
+    }
+    static void to_rows(const Register (&axes)[3], Register (&rows)[4]) {
+        const Register xy_02 = _mm256_unpacklo_epi64(axes[0], axes[1]);
+        const Register xy_13 = _mm256_unpackhi_epi64(axes[0], axes[1]);
+        const Register z_02 = _mm256_unpacklo_epi64(axes[2], set(0));
+        const Register z_13 = _mm256_unpackhi_epi64(axes[2], set(0));
+        rows[0] = _mm256_permute2x128_si256(xy_02, z_02, 0x20);
+        rows[1] = _mm256_permute2x128_si256(xy_13, z_13, 0x20);
+        rows[2] = _mm256_permute2x128_si256(xy_02, z_02, 0x31);
+        rows[3] = _mm256_permute2x128_si256(xy_13, z_13, 0x31);
+    }
+    static void from_rows(const Register (&rows)[4], Register (&axes)[3]) {
+        const Register xz_01 = _mm256_unpacklo_epi64(rows[0], rows[1]);
+        const Register xz_23 = _mm256_unpacklo_epi64(rows[2], rows[3]);
+        const Register y_01 = _mm256_unpackhi_epi64(rows[0], rows[1]);
+        const Register y_23 = _mm256_unpackhi_epi64(rows[2], rows[3]);
+        axes[0] = _mm256_permute2x128_si256(xz_01, xz_23, 0x20);
+        axes[1] = _mm256_permute2x128_si256(y_01, y_23, 0x20);
+        axes[2] = _mm256_permute2x128_si256(xz_01, xz_23, 0x31);
+    }
+    // Of both ends of half a group, along each axis.
+    static void row_differences(const std::int64_t* rows, const std::uint32_t* ends, Register (&d)[3]) {
+        Register wide[4];
+        for (int i = 0; i < 4; ++i) {
+            wide[i] = subtract(load(row(rows, ends[2 * i])), load(row(rows, ends[2 * i + 1])));
+        }
+        from_rows(wide, d);
+    }
+    // a += plus, b −= minus.
+    static void move_rows(std::int64_t* rows, const std::uint32_t* ends, const Register (&plus)[3],
+                          const Register (&minus)[3]) {
+        Register plus_rows[4];
+        Register minus_rows[4];
+        to_rows(plus, plus_rows);
+        to_rows(minus, minus_rows);
+        for (int i = 0; i < 4; ++i) {
+            std::int64_t* a = row(rows, ends[2 * i]);
+            std::int64_t* b = row(rows, ends[2 * i + 1]);
+            store(a, add(load(a), plus_rows[i]));
+            store(b, subtract(load(b), minus_rows[i]));
+        }
+    }
+
     static Register set(std::int64_t value) { return _mm256_set1_epi64x(value); }
     static Register set_32(std::int32_t value) { return _mm256_set1_epi32(value); }
     static Shift make_shift(int count) { return _mm_cvtsi32_si128(count); }

@@ -3,6 +3,7 @@
 
 #include <immintrin.h>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace lks {
@@ -48,6 +49,73 @@ struct LanesAvx512 {
         return _mm512_set_epi64(p[at[7]], p[at[6]], p[at[5]], p[at[4]], p[at[3]], p[at[2]], p[at[1]],
                                 p[at[0]]);
     }
+
+    // Rows of a particle (kernels/row_task.h), two to a register.
+    static constexpr bool has_rows = true;
+    template <typename Int>
+    static Int* row(Int* rows, std::uint32_t particle) {
+        return rows + 4 * std::size_t{particle};
+    }
+    static __m256i load_row(const std::int64_t* row) {
+        return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(row));
+    }
+    static void store_row(std::int64_t* row, __m256i v) {
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(row), v);
+    }
+    // The lower, or upper, 128 bits of each half of a, followed by b's.
+    static Register low_quarters(Register a, Register b) {
+        return _mm512_permutex2var_epi64(a, _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0), b);
+    }
+    static Register high_quarters(Register a, Register b) {
+        return _mm512_permutex2var_epi64(a, _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2), b);
+    }
+    // Of both ends of half a group, along each axis.
+    static void row_differences(const std::int64_t* rows, const std::uint32_t* ends, Register (&d)[3]) {
+        const auto difference = [&](int i) {
+            return _mm256_sub_epi64(load_row(row(rows, ends[2 * i])), load_row(row(rows, ends[2 * i + 1])));
+        };
+        const auto and_fourth_next = [&](int i) {
+            return _mm512_inserti64x4(_mm512_castsi256_si512(difference(i)), difference(i + 4), 1);
+        };
+        const Register of_04 = and_fourth_next(0);
+        const Register of_15 = and_fourth_next(1);
+        const Register of_26 = and_fourth_next(2);
+        const Register of_37 = and_fourth_next(3);
+        const Register xz_0145 = _mm512_unpacklo_epi64(of_04, of_15);
+        const Register xz_2367 = _mm512_unpacklo_epi64(of_26, of_37);
+        const Register y_0145 = _mm512_unpackhi_epi64(of_04, of_15);
+        const Register y_2367 = _mm512_unpackhi_epi64(of_26, of_37);
+        d[0] = low_quarters(xz_0145, xz_2367);
+        d[1] = low_quarters(y_0145, y_2367);
+        d[2] = high_quarters(xz_0145, xz_2367);
+    }
+    static void to_rows(const Register (&axes)[3], __m256i (&rows)[8]) {
+        const Register xy_0246 = _mm512_unpacklo_epi64(axes[0], axes[1]);
+        const Register xy_1357 = _mm512_unpackhi_epi64(axes[0], axes[1]);
+        const Register z_0246 = _mm512_unpacklo_epi64(axes[2], set(0));
+        const Register z_1357 = _mm512_unpackhi_epi64(axes[2], set(0));
+        const Register pairs[4] = {low_quarters(xy_0246, z_0246), low_quarters(xy_1357, z_1357),
+                                   high_quarters(xy_0246, z_0246), high_quarters(xy_1357, z_1357)};
+        for (int i = 0; i < 4; ++i) {
+            rows[i] = _mm512_castsi512_si256(pairs[i]);
+            rows[i + 4] = _mm512_extracti64x4_epi64(pairs[i], 1);
+        }
+    }
+    // a += plus, b −= minus.
+    static void move_rows(std::int64_t* rows, const std::uint32_t* ends, const Register (&plus)[3],
+                          const Register (&minus)[3]) {
+        __m256i plus_rows[8];
+        __m256i minus_rows[8];
+        to_rows(plus, plus_rows);
+        to_rows(minus, minus_rows);
+        for (int i = 0; i < 8; ++i) {
+            std::int64_t* a = row(rows, ends[2 * i]);
+            std::int64_t* b = row(rows, ends[2 * i + 1]);
+            store_row(a, _mm256_add_epi64(load_row(a), plus_rows[i]));
+            store_row(b, _mm256_sub_epi64(load_row(b), minus_rows[i]));
+        }
+    }
+
     static Register set(std::int64_t value) { return _mm512_set1_epi64(value); }
     static Register set_32(std::int32_t value) { return _mm512_set1_epi32(value); }
     static Shift make_shift(int count) { return _mm_cvtsi32_si128(count); }

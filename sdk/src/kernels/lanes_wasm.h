@@ -15,6 +15,7 @@ struct LanesWasm {
     // Groups that go through the stages together.
     static constexpr std::uint32_t together = 1;
     static constexpr std::uint32_t singles_together = 4;
+    static constexpr bool has_rows = false;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 3;
     static constexpr std::uint32_t rolls_from = 0; // never

@@ -13,6 +13,7 @@ struct TwiceLanes {
     static constexpr std::uint32_t interleaved = L::interleaved;
     static constexpr std::uint32_t together = L::together;
     static constexpr std::uint32_t singles_together = L::singles_together;
+    static constexpr bool has_rows = false;
     static constexpr std::uint32_t worth_a_group = L::worth_a_group;
     static constexpr bool has_signed_shift = L::has_signed_shift;
     static constexpr bool has_shift_each = L::has_shift_each;

@@ -23,14 +23,15 @@ BatchPart whole_batch(const lks_asset& asset, const Coefficients& coefficients, 
 }
 
 DistanceTask task_of_batch(const lks_asset& asset, const Coefficients& coefficients, std::uint32_t index,
-                           const DistanceArrays& arrays) {
+                           const DistanceArrays& arrays, bool in_rows) {
     const Batch& batch = asset.batches[index];
     const FamilyCoefficients& family = coefficients.families[batch.family];
     return {nullptr,
             0,
-            batch.first_single - batch.first < batch.run_count * widest_group,
+            !in_rows && batch.first_single - batch.first < batch.run_count * widest_group,
             family.soft,
             family.damping_share != 0,
+            in_rows,
             coefficients.batches[index].parameters,
             asset.constraints.data(),
             asset.rest_mantissas.data(),
@@ -59,11 +60,11 @@ bool DistanceWork::reserve(std::size_t batches) {
 }
 
 void prepare_distances(const lks_asset& asset, const Coefficients& coefficients, const DistanceArrays& arrays,
-                       DistanceWork& work) {
+                       bool in_rows, DistanceWork& work) {
     work.parts.clear();
     work.tasks.clear();
     for (std::uint32_t index = 0; index < asset.batches.size(); ++index) {
-        const DistanceTask task = task_of_batch(asset, coefficients, index, arrays);
+        const DistanceTask task = task_of_batch(asset, coefficients, index, arrays, in_rows);
         const bool goes_on = index != 0 && asset.batches[index].family == asset.batches[index - 1].family &&
                              alike(task, work.tasks[work.tasks.size() - 1]);
         if (!goes_on) {

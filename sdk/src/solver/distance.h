@@ -38,7 +38,7 @@ struct DistanceWork {
 // Made once a tick: what a kernel reads was then stored long ago, and does not hold it up. There must be
 // room.
 void prepare_distances(const lks_asset& asset, const Coefficients& coefficients, const DistanceArrays& arrays,
-                       DistanceWork& work);
+                       bool in_rows, DistanceWork& work);
 // Some constraints of a batch.
 BatchPart part_of_batch(const BatchPart& whole, const lks_asset& asset, std::uint32_t batch,
                         ConstraintRange range);

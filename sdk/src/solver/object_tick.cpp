@@ -9,6 +9,7 @@
 #include "solver/chain.h"
 #include "solver/distance.h"
 #include "solver/local_frame.h"
+#include "solver/particle_rows.h"
 #include "solver/pins.h"
 #include "solver/prediction.h"
 #include "solver/side_by_side.h"
@@ -59,6 +60,7 @@ public:
         prepare_batches();
         hold_by_tethers();
         sweep_batches();
+        leave_rows();
     }
 
     void collide(std::uint32_t substep) {
@@ -67,7 +69,11 @@ public:
     }
 
     void prepare_batches() {
-        prepare_distances(asset_, coefficients_, distance_arrays(), scratch_.distances);
+        if (is_swept_in_rows(*world_.kernels, asset_)) {
+            rows_.emplace(object_, scratch_.rows.data());
+        }
+        prepare_distances(asset_, coefficients_, rows_ ? rows_->arrays() : distance_arrays(),
+                          rows_.has_value(), scratch_.distances);
     }
 
     // Before the constraints, which make even what is pulled taut.
@@ -76,6 +82,7 @@ public:
         if (asset_.tethers.empty() || !place_tether_anchors(object_, anchors)) {
             return;
         }
+        leave_rows();
         in_blocks(object_.count(), particles_a_block,
                   [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
                       lks::hold_by_tethers(object_, anchors, *world_.kernels, first, count);
@@ -84,6 +91,13 @@ public:
 
     // A rope that is solved directly comes last, so that an iteration ends with no segment stretched.
     void sweep_batches() {
+        if (rows_ && !are_in_rows_) {
+            are_in_rows_ = true;
+            in_blocks(object_.count(), particles_a_block,
+                      [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
+                          rows_->take(*world_.kernels, first, count);
+                      });
+        }
         const bool directly = !coefficients_.chain.empty();
         for (const DistanceTask& task : scratch_.distances.tasks) {
             if (!directly || !stretches(task)) {
@@ -95,11 +109,24 @@ public:
         }
     }
 
+    // Before anything but constraints asks where particles are.
+    void leave_rows() {
+        if (!are_in_rows_) {
+            return;
+        }
+        are_in_rows_ = false;
+        in_blocks(object_.count(), particles_a_block,
+                  [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
+                      rows_->give_back(*world_.kernels, first, count);
+                  });
+    }
+
     // Contacts come last in an iteration, so that a substep ends with nothing inside a collider.
     void resolve_all_contacts(std::uint32_t substep) {
         if (candidate_count_ == 0) {
             return;
         }
+        leave_rows();
         const Bounds swept = swept_bounds();
         bool touched = false;
         for (std::uint32_t i = 0; i < candidate_count_; ++i) {
@@ -302,6 +329,8 @@ private:
     std::int64_t acceleration_[3];
     std::uint32_t* candidates_; // colliders near the object
     std::uint32_t candidate_count_ = 0;
+    std::optional<ParticleRows> rows_; // where constraints are swept in rows
+    bool are_in_rows_ = false;         // the arrays are those of before
 };
 
 // How one object, or several side by side, move through one tick: all do each step before any does the next,
@@ -328,6 +357,7 @@ public:
                 ticks_[0]->sweep_batches();
                 each([&](ObjectTick& tick) { tick.resolve_all_contacts(substep); });
             }
+            each([](ObjectTick& tick) { tick.leave_rows(); });
         }
     }
 

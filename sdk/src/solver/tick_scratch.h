@@ -14,6 +14,7 @@ namespace lks {
 struct TickScratch {
     Array<std::uint32_t> candidates; // room for all colliders, for each of the objects side by side
     DistanceWork distances;          // of the object at work, or of the first one of several
+    Array<std::int64_t> rows;        // room for those of the object that has most
     Array<std::int64_t> chain;       // room for the longest rope that is solved directly
     Array<TetherAnchor> anchors;     // room for those of the asset that has most
     lks_world_counters counters{};   // of this tick

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "solver/particle_rows.h"
+
 using lks::Coefficients;
 using lks::KnownAsset;
 using lks::Object;
@@ -22,6 +24,7 @@ lks_world::lks_world(const lks_world_def& def)
         worker.candidates.set_allocator(allocator);
         worker.distances.set_allocator(allocator);
         worker.chain.set_allocator(allocator);
+        worker.rows.set_allocator(allocator);
         worker.anchors.set_allocator(allocator);
     }
 }
@@ -108,6 +111,7 @@ const KnownAsset* lks_world::know_asset(const lks_asset& asset) {
     }
     for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
         if (!scratch[worker].distances.reserve(asset.batches.size()) ||
+            !scratch[worker].rows.reserve(lks::row_words(asset)) ||
             !scratch[worker].chain.reserve(asset.chain.empty() ? 0
                                                                : lks::ChainWork::words(asset.chain.size())) ||
             !scratch[worker].anchors.reserve(asset.tethers.anchors.size())) {
