@@ -96,6 +96,31 @@ TEST_CASE("a cloth of 64 x 64 stays within 2e-6 m of double precision for ten ti
     CHECK(deviation.single_at_100_metres > deviation.single);
 }
 
+TEST_CASE(
+    "a tethered cloth with a hundred times its critical damping stays within 1e-6 m of double precision") {
+    print_header();
+    Net net;
+    net.side = 16;
+    net.width = 1;
+    net.stretch = net.shear = net.bend = soft(1e-6, 2e4);
+    net.particle_mass = 0.01;
+    net.anchors = {0, 15};
+    const Asset asset = net.build();
+    Scenario scenario;
+    scenario.asset = &asset;
+    scenario.transform = turned(lks_transform_identity(), 1, 0, 0, 90);
+    scenario.masses.assign(std::size_t{net.side} * net.side, net.particle_mass);
+    scenario.materials = Materials{net.stretch, net.shear, net.bend};
+    scenario.pins = {0, net.side - 1};
+    scenario.settings.substeps = 10;
+    scenario.ticks = 60;
+    const Deviation deviation = deviation_of(scenario);
+    print("tethered cloth 16 x 16, 100 x critical, 10 substeps, tick 60", deviation);
+    CHECK(deviation.fixed_point <= 1e-6);
+    CHECK(deviation.single > deviation.fixed_point);
+    CHECK(deviation.single_at_100_metres > deviation.single);
+}
+
 TEST_CASE("springs of any compliance and mass stay within 3e-7 m of double precision for a second") {
     // Released from the horizontal: a pendulum and a spring at once. Softer ones swing further than their
     // length.

@@ -175,6 +175,7 @@ private:
     // XPBD eq. 26 with every coefficient in [0, 1]. Anew each tick, since pins change the masses.
     void prepare() {
         coefficients_.clear();
+        greatest_damping_ = 0;
         for (const Edge& edge : edges_) {
             const Scalar w_a = inverse_masses_[edge.a];
             const Scalar w_b = inverse_masses_[edge.b];
@@ -192,6 +193,7 @@ private:
                 k.s_b = w_b / d;
             }
             coefficients_.push_back(k);
+            greatest_damping_ = std::max(greatest_damping_, k.damping);
         }
     }
 
@@ -245,10 +247,15 @@ private:
                 continue;
             }
             const Vec difference = positions_[tether.particle] - positions_[tether.anchor];
-            const Scalar ratio =
-                static_cast<Scalar>(tether.length * scales.at(tether.anchor)) / difference.length();
-            if (ratio < 1) {
-                positions_[tether.particle] = positions_[tether.particle] + difference * (ratio - 1);
+            const Scalar length = difference.length();
+            const Scalar error = static_cast<Scalar>(tether.length * scales.at(tether.anchor)) / length - 1;
+            if (error < 0) {
+                const Vec start = previous_[tether.particle] - previous_[tether.anchor];
+                const Scalar growth =
+                    std::max(difference.dot(difference - start) / (length * length), Scalar(0));
+                const Scalar damped = (1 - greatest_damping_) * error - greatest_damping_ * growth;
+                positions_[tether.particle] =
+                    positions_[tether.particle] + difference * std::max(error, damped);
             }
         }
     }
@@ -346,6 +353,7 @@ private:
     std::vector<Vec> positions_, previous_, velocities_, targets_;
     std::vector<Scalar> multipliers_;
     std::vector<Coefficients> coefficients_;
+    Scalar greatest_damping_ = 0; // γ' of a tether
     Contact contact_;
 };
 

@@ -90,6 +90,19 @@ constexpr std::int64_t damped_rounding(std::uint32_t damping_share) {
     return (std::int64_t{1} << (unit_fraction_bits - 1)) - (damping_share >> 1);
 }
 
+// d·(d − start)/u in Direction format, within ±1, rounded down: by how much of its length an edge has grown
+// since it was `start`. u = |d|² is below 2^62, and 1/|d| = y·2^(k−62).
+LKS_FORCE_INLINE std::int64_t relative_growth(const NarrowDifference& d, const Difference& start,
+                                              std::uint64_t u, std::uint32_t y, int k) {
+    const auto squared = static_cast<std::int64_t>(u);
+    const std::int64_t dot =
+        std::clamp(squared - d.x * start.x - d.y * start.y - d.z * start.z, -squared, squared);
+    // u is m·2^(62 − 2k) with m in [1, 4), and y² is 1/m. Below 2^62.
+    const std::int64_t aligned = shift_right_rounded(dot * (std::int64_t{1} << (2 * k - 2)), 32);
+    const auto reciprocal = static_cast<std::int64_t>(std::uint64_t{y} * y >> 32);
+    return (aligned * reciprocal) >> 28;
+}
+
 template <bool soft, bool damped, bool multiplier>
 class Projection {
 public:
@@ -157,7 +170,7 @@ private:
                                  int scale) const {
         std::int64_t f = g;
         if constexpr (damped) {
-            const std::int64_t motion = relative_motion(a, b, d, u, y, k);
+            const std::int64_t motion = relative_growth(d, start_difference(a, b, d.extra), u, y, k);
             f = (static_cast<std::int64_t>(parameters_.error_share) * g -
                  static_cast<std::int64_t>(parameters_.damping_share) * motion +
                  damped_rounding(parameters_.damping_share)) >>
@@ -174,21 +187,6 @@ private:
         }
         // Without the relaxation |f| ≤ 1, but for some units of rounding: both shares come to one at most.
         return f;
-    }
-
-    // n·(Δx_a − Δx_b) / len since the start of the substep in Direction format, within ±1, rounded down: with
-    // d and the same difference at the start, d·(d − d_start) / u.
-    LKS_FORCE_INLINE std::int64_t relative_motion(std::ptrdiff_t a, std::ptrdiff_t b,
-                                                  const NarrowDifference& d, std::uint64_t u, std::uint32_t y,
-                                                  int k) const {
-        const Difference start = start_difference(a, b, d.extra);
-        const auto squared = static_cast<std::int64_t>(u); // below 2^62, so that k ≥ 1
-        const std::int64_t dot =
-            std::clamp(squared - d.x * start.x - d.y * start.y - d.z * start.z, -squared, squared);
-        // u is m·2^(62 − 2k) with m in [1, 4), and y² is 1/m. Below 2^62.
-        const std::int64_t aligned = shift_right_rounded(dot * (std::int64_t{1} << (2 * k - 2)), 32);
-        const auto reciprocal = static_cast<std::int64_t>(std::uint64_t{y} * y >> 32);
-        return (aligned * reciprocal) >> 28;
     }
 
     // In units of 2^(difference_shift + extra), within ±2^30.

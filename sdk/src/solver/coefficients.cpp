@@ -85,6 +85,9 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
         families[f].error_share = to_share(Scaled::from_u64(1) / terms[f].one_plus_gamma);
         families[f].damping_share = to_share(terms[f].gamma / terms[f].one_plus_gamma);
         any_soft = any_soft || families[f].soft;
+        if (family.enabled && families[f].damping_share > tethers.damping_share) {
+            tethers = families[f];
+        }
     }
     // In the first iteration of a substep Λ is zero, so r plays no part.
     if (rate.iterations > 1 && any_soft && !relaxations.resize(padded)) {
@@ -119,6 +122,7 @@ bool Coefficients::copy(const Coefficients& other) {
         return false;
     }
     std::copy(std::begin(other.families), std::end(other.families), std::begin(families));
+    tethers = other.tethers;
     return true;
 }
 

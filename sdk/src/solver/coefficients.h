@@ -55,6 +55,7 @@ public:
                          std::uint32_t particle);
 
     FamilyCoefficients families[family_count];
+    FamilyCoefficients tethers;    // as the family has them that is damped most
     Array<std::uint32_t> shares_a; // s_a mantissas, by constraint; padded, as kernels read on
     Array<std::uint32_t> shares_b;
     Array<std::uint32_t>

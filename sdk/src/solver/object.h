@@ -66,6 +66,11 @@ public:
         return {axis(0)[particle], axis(1)[particle], axis(2)[particle]};
     }
 
+    // Where the substep began for it.
+    Coordinates start(std::uint32_t particle) const {
+        return {start_axis(0)[particle], start_axis(1)[particle], start_axis(2)[particle]};
+    }
+
     // The coefficients in force: the shared ones until something is pinned.
     const Coefficients& coefficients() const { return owns_coefficients_ ? own_ : *shared_; }
 

@@ -40,7 +40,7 @@ class Holding {
 public:
     Holding(Object& object, const TetherAnchor* anchors, const Kernels& kernels)
         : object_(object), tethers_(object.asset().tethers), anchors_(anchors), kernels_(kernels),
-          pinned_(object.pinned()) {}
+          pinned_(object.pinned()), damping_(object.coefficients().tethers) {}
 
     // Particles of one group, those whose bits are set.
     void hold(std::uint32_t group, std::uint64_t wanted) {
@@ -72,7 +72,7 @@ private:
             const std::uint32_t particle = first + static_cast<std::uint32_t>(std::countr_zero(members));
             const Difference d = difference(particle, anchor.position);
             if (may_be_beyond(d.x, d.y, d.z, lengths[particle]) && !pinned_.contains(particle)) {
-                pull(particle, d, lengths[particle], anchor.scale);
+                pull(particle, d, lengths[particle], anchor);
             }
         }
     }
@@ -83,11 +83,12 @@ private:
                 wrapping_subtract(object_.axis(2)[particle], anchor.z)};
     }
 
-    // x += d·(L/|d| − 1) where that is negative: the distance constraint's projection with all of the mass at
-    // one end.
-    void pull(std::uint32_t particle, const Difference& wide, std::uint32_t length, std::uint32_t scale) {
-        if (scale != scale_one) {
-            const std::uint64_t scaled = (std::uint64_t{length} * scale) >> scale_bits;
+    // x += d·f, f = L/|d| − 1, where that is negative: the distance constraint's projection with all of the
+    // mass at one end.
+    void pull(std::uint32_t particle, const Difference& wide, std::uint32_t length,
+              const TetherAnchor& anchor) {
+        if (anchor.scale != scale_one) {
+            const std::uint64_t scaled = (std::uint64_t{length} * anchor.scale) >> scale_bits;
             length = static_cast<std::uint32_t>(std::min<std::uint64_t>(scaled + 1, no_tether));
         }
         if (fit_differences(wide) || length == no_tether) {
@@ -97,10 +98,13 @@ private:
         const std::uint64_t u = static_cast<std::uint64_t>(d.x * d.x) +
                                 static_cast<std::uint64_t>(d.y * d.y) + static_cast<std::uint64_t>(d.z * d.z);
         const fixed::ReciprocalLength reciprocal = fixed::projection_reciprocal_length(u);
-        const std::int64_t f =
-            rest_ratio(length, reciprocal.mantissa, d.extra - reciprocal.shift) - direction_one;
+        std::int64_t f = rest_ratio(length, reciprocal.mantissa, d.extra - reciprocal.shift) - direction_one;
         if (f >= 0) {
             return;
+        }
+        if (damping_.damping_share != 0) {
+            f = damped(f, relative_growth(d, start_difference(particle, anchor.start, d.extra), u,
+                                          reciprocal.mantissa, reciprocal.shift));
         }
         const auto move = [&](std::int64_t* x, std::int64_t difference) {
             x[particle] = wrapping_add(x[particle],
@@ -111,11 +115,33 @@ private:
         move(object_.axis(2), d.z);
     }
 
+    // A tether stands for constraints that are damped: XPBD eq. 26, but that it is not moved further than to
+    // its end. Undamped ones would be to the damping of the constraints a motion that neighbours have to
+    // share.
+    std::int64_t damped(std::int64_t f, std::int64_t growth) const {
+        const auto error_share = static_cast<std::int64_t>(damping_.error_share);
+        const auto damping_share = static_cast<std::int64_t>(damping_.damping_share);
+        const std::int64_t wanted = error_share * f - damping_share * std::max<std::int64_t>(growth, 0);
+        return std::max(f, shift_right_rounded(wanted, unit_fraction_bits));
+    }
+
+    // In units of 2^extra, within ±1.5·2^30: what d's products with it have room for beside u, and so much
+    // that only what has moved by a third of its length is clamped.
+    Difference start_difference(std::uint32_t particle, const Coordinates& anchor, int extra) const {
+        constexpr std::int64_t most = std::int64_t{3} << 29;
+        const auto narrow = [&](int axis, std::int64_t from) {
+            const std::int64_t apart = wrapping_subtract(object_.start_axis(axis)[particle], from);
+            return std::clamp(shift_right_rounded_any(apart, extra), -most, most);
+        };
+        return {narrow(0, anchor.x), narrow(1, anchor.y), narrow(2, anchor.z)};
+    }
+
     Object& object_;
     const Tethers& tethers_;
     const TetherAnchor* anchors_;
     const Kernels& kernels_;
     PinnedParticles pinned_;
+    const FamilyCoefficients& damping_;
 };
 
 } // namespace
@@ -126,7 +152,7 @@ bool place_tether_anchors(const Object& object, TetherAnchor* anchors) {
     for (std::size_t i = 0; i < tethers.anchors.size(); ++i) {
         const std::uint32_t particle = tethers.anchors[i];
         const bool active = object.pinned().contains(particle);
-        anchors[i] = {object.position(particle), active, scale_one};
+        anchors[i] = {object.position(particle), object.start(particle), active, scale_one};
         any = any || active;
     }
     if (any) {

@@ -1,5 +1,6 @@
 // Holds particles within reach of pinned anchors (asset/tethers.h): a particle that is further from one than
-// its tether is long is moved straight towards it, by all that it is too far.
+// its tether is long is moved straight towards it, by all that it is too far, or less where the cloth is
+// damped.
 //
 // In one iteration each particle is moved by its own tethers only, one after the other, and anchors not at
 // all: any order of particles and any number of threads gives the same bits.
@@ -15,6 +16,7 @@ namespace lks {
 // Where an anchor is now. No state.
 struct TetherAnchor {
     Coordinates position;
+    Coordinates start;   // of the substep
     bool active;         // its particle is pinned
     std::uint32_t scale; // what its tethers are lengthened by, at least one; 24 fraction bits
 };
