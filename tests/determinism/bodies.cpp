@@ -305,6 +305,37 @@ TEST_CASE("a crowd whose trees are solved side by side has the bits of plain int
     }
 }
 
+TEST_CASE("figures that are thrown at a wall, some of them ahead, have the bits of plain integers") {
+    const auto hashes_of = [](std::uint32_t workers, lks_simd simd) {
+        lks_world_def def = world_def(60, 8);
+        def.worker_count = workers;
+        def.simd = static_cast<std::uint32_t>(simd);
+        World world(def);
+        add_box(world, fixed(0.025, 20, 20), fixed(3, 0, 0));
+        add_body(world, box_shape(0.025, 2, 2, 20000), fixed(2.5, 0, 2));
+        for (int i = 0; i < 12; ++i) {
+            Humanoid humanoid;
+            humanoid.def.transform = {fixed(0.3 * (i % 5) - 0.6, 0, 0.8 * i - 4), about(1, 2, i, 40 * i)};
+            humanoid.def.velocity = fixed(i == 7 ? 5 : 60, 0, 0);
+            REQUIRE(humanoid.add(world) == LKS_OK);
+        }
+        std::vector<std::uint64_t> hashes;
+        for (int i = 0; i < 30; ++i) {
+            world.step();
+            hashes.push_back(world.hash());
+        }
+        return hashes;
+    };
+    const std::vector<std::uint64_t> expected = hashes_of(1, LKS_SIMD_SCALAR);
+    for (const lks_simd simd : {LKS_SIMD_AVX2, LKS_SIMD_AVX512}) {
+        if (lks_simd_is_available(simd) != 0) {
+            INFO(std::string(lks_simd_name(simd)));
+            CHECK(hashes_of(1, simd) == expected);
+            CHECK(hashes_of(3, simd) == expected);
+        }
+    }
+}
+
 TEST_CASE("a pile saved as it lands goes on for 600 ticks with other workers and instructions") {
     const auto fill = [](World& world, int count) {
         add_ground(world);

@@ -88,6 +88,7 @@ struct Contact {
     std::int64_t restitution;       // World
     std::int64_t given_speed;       // World m/s: what it gave along its normals in this tick, added up
     bool every_substep;             // its points are looked for in each, not once a tick
+    bool fast;                      // one may pass the middle of the other in a tick; never a plane's
     fixed::Direction directions[3]; // the normal, from a to b, and two across it
     // Of the substep: a push along the normal at the middle of all active points, where they are several.
     ContactRows middle;
@@ -105,6 +106,7 @@ struct Contact {
 struct FoundContact {
     ContactKey key;
     bool every_substep;
+    bool fast;
     std::int64_t radius_a;
     std::int64_t radius_b;
     Manifold manifold;
@@ -151,6 +153,8 @@ void carry_more(Contact& contact, ContactBodies bodies, std::int32_t share);
 // and back, to which their moves are small.
 void measure(Contact& contact, ContactBodies bodies);
 void project(Contact& contact, ContactMoves moves, bool back);
+// Whether what pushes is still closing by more than this in the substep.
+bool closes(const Contact& contact, const ContactBodies& bodies, std::int64_t distance);
 // For events: what it pushed in this substep.
 void add_up_pushes(Contact& contact, const MotionRate& rate);
 // Once velocities are known.

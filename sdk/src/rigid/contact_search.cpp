@@ -390,6 +390,7 @@ private:
         // Boxes beside each other show no points, and may yet meet at their edges.
         const bool unclear = fast && found.manifold.count == 0;
         drop_what_stays_apart(found.manifold, found.key, motion);
+        found.fast = fast;
         found.every_substep = fast || sticks(found.manifold);
         return found.manifold.count != 0 || unclear;
     }
@@ -413,6 +414,7 @@ private:
         const Body& body_b = other_body(scene_, key.other);
         contact.key = key;
         contact.shares = pair_shares(body_a.effective_inverse_mass(), body_b.effective_inverse_mass());
+        contact.fast = found.fast;
         contact.radius_a = found.radius_a;
         contact.radius_b = found.radius_b;
         const Surface& own = scene_.descriptions[key.body_a].surface;

@@ -111,6 +111,13 @@ void measure(Contact& contact, ContactBodies bodies) {
     }
 }
 
+bool closes(const Contact& contact, const ContactBodies& bodies, std::int64_t distance) {
+    return std::any_of(contact.points, contact.points + contact.count, [&](const ContactPoint& point) {
+        return point.active && point.push.normal != 0 &&
+               gap_of(contact, point, cores_now(point, bodies.a, bodies.b), bodies) < -distance;
+    });
+}
+
 void project(Contact& contact, ContactMoves moves, bool back) {
     if (contact.active_count > 1) {
         project_middle(contact, moves);

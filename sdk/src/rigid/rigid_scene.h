@@ -108,6 +108,7 @@ struct RigidScene {
     Array<std::int32_t>
         figure_shares; // by awake figure: what is added to its pushes (rigid/carried_pushes.h)
     Array<std::uint8_t> figures_changed; // by the least body: while shares are added
+    Array<std::uint8_t> struck_figures;  // by the least body; empty where nothing is hard
     Array<FigureShift> figure_shifts;    // by the least body; and one for what stays
     Array<FigurePair> figure_pairs;
     Array<IslandRest> island_rests; // by the least body of an island

@@ -33,9 +33,12 @@ private:
     template <typename Use>
     void in_figures(const Use& use);
     template <typename Use>
+    void in_struck(const Use& use);
+    template <typename Use>
     void for_each_joint(const FigureRange& figure, const Use& use);
     void in_trees(const FigureBundle& bundle, void (*wide)(RigidScene&, const FigureBundle&),
                   void (*plain)(RigidScene&, const ArticulatedTree&));
+    void solve_trees(const FigureRange& figure);
     void solve_trees(const FigureBundle& bundle);
 
     void begin(std::uint32_t substep);
@@ -47,7 +50,14 @@ private:
     void project_contact(std::uint32_t index, bool back);
     Move& move_of(std::uint32_t other);
     void apply_contact_moves(const FigureRange& figure);
+    void project_joints(const FigureRange& figure);
+    void project_contacts(const FigureRange& figure);
+    void project_back(const FigureRange& figure);
     void iterate(std::uint32_t substep);
+    bool find_hard_impacts();
+    bool is_struck(const FigureRange& figure) const;
+    bool are_struck(const Contact& shared) const;
+    void stop_hard_impacts();
     void project_attachments();
     void collide_objects(std::uint32_t substep);
     void finish();

@@ -201,6 +201,13 @@ public:
         });
     }
 
+    void hand_out_factors(std::uint32_t lane) {
+        ArticulatedJoint* const joints = &scene_.tree_joints[tree(lane).first_joint];
+        for (std::uint32_t i = 0; i + 1 < body_count_; ++i) {
+            get_factors(wide_joint(i), lane, joints[i]);
+        }
+    }
+
     void undo() {
         bool far_off[tree_lanes];
         for (std::uint32_t lane = 0; lane < count(); ++lane) {
@@ -306,6 +313,10 @@ void factor_bundle(RigidScene& scene, const FigureBundle& bundle) {
 
 void solve_bundle(RigidScene& scene, const FigureBundle& bundle) {
     WideTrees(scene, bundle).solve();
+}
+
+void hand_out_factors(RigidScene& scene, const FigureBundle& bundle, std::uint32_t lane) {
+    WideTrees(scene, bundle).hand_out_factors(lane);
 }
 
 void undo_bundle(RigidScene& scene, const FigureBundle& bundle) {

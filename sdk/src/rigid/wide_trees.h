@@ -16,6 +16,8 @@ void find_bundles(RigidScene& scene);
 // For bundles of several figures: as factor_articulation, solve_articulation and undo_articulation.
 void factor_bundle(RigidScene& scene, const FigureBundle& bundle);
 void solve_bundle(RigidScene& scene, const FigureBundle& bundle);
+// For solve_articulation of one figure of a bundle, after factor_bundle.
+void hand_out_factors(RigidScene& scene, const FigureBundle& bundle, std::uint32_t lane);
 void undo_bundle(RigidScene& scene, const FigureBundle& bundle);
 
 } // namespace lks
