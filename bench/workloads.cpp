@@ -44,6 +44,7 @@ std::vector<Workload> make_workloads() {
          .title = "64 × 64 vertices, 1e-5 m/N, 10 N·s/m",
          .compliance = 1e-5,
          .damping = 10},
+        {.name = "cloth_64_area", .title = "64 × 64 vertices, masses by area", .masses_by_area = true},
         {.name = "cloth_50", .title = "50 × 50 vertices, no multiple of four", .side = 50},
     };
     all.insert(all.end(), special.begin(), special.end());
@@ -63,6 +64,12 @@ std::vector<Workload> make_workloads() {
     };
     for (const Workload& workload : others) {
         add_with_variations(workload, all);
+        if (workload.shape == Shape::mesh) {
+            Workload& by_area = all.emplace_back(workload);
+            by_area.name += "_area";
+            by_area.title += ", masses by area";
+            by_area.masses_by_area = true;
+        }
     }
     return all;
 }
@@ -102,7 +109,6 @@ WorkloadAsset::WorkloadAsset(const Workload& workload, const lks_allocator& allo
     const lks_distance_material material{workload.compliance, workload.damping, 1, 0};
     lks_error error{};
     const std::uint32_t side = workload.side;
-    // Equal masses, as in most cloth.
     const std::vector<double> masses(std::size_t{side} * (workload.shape == Shape::rope ? 1 : side), 0.001);
     if (workload.shape == Shape::rope) {
         lks_rope_def def = lks_default_rope_def();
@@ -136,8 +142,10 @@ WorkloadAsset::WorkloadAsset(const Workload& workload, const lks_allocator& allo
         def.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
         pinned_ = {mesh.corners[0], mesh.corners[1]};
     }
-    def.area_density = 0;
-    def.vertex_masses = masses.data();
+    if (!workload.masses_by_area) {
+        def.area_density = 0;
+        def.vertex_masses = masses.data();
+    }
     def.stretch = material;
     def.shear = workload.shape == Shape::mesh ? lks_distance_material{} : material;
     def.bend = material;

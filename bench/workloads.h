@@ -17,9 +17,10 @@ struct Workload {
     std::string title;
     Shape shape = Shape::cloth;
     std::uint32_t objects = 1;
-    std::uint32_t side = 64; // vertices along a cloth's or a mesh's edge, or particles of a rope
-    double compliance = 0;   // m/N
-    double damping = 0;      // N·s/m
+    std::uint32_t side = 64;     // vertices along a cloth's or a mesh's edge, or particles of a rope
+    double compliance = 0;       // m/N
+    double damping = 0;          // N·s/m
+    bool masses_by_area = false; // of a cloth or a mesh; otherwise all are equal
     bool colliders = false;
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
