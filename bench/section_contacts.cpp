@@ -57,6 +57,7 @@ std::vector<Support> supports() {
     box.half_extents = {hundredths(500), hundredths(100), hundredths(500)};
     box.transform.position.y = -hundredths(101);
     std::vector<lks_collider_def> limbs;
+    limbs.reserve(15);
     for (int i = 0; i < 15; ++i) {
         limbs.push_back(capsule(8, 20, 40 * (i % 5) - 80, -10, 60 * (i / 5) - 60));
     }
