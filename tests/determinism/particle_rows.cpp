@@ -114,7 +114,7 @@ TEST_CASE("large irregular meshes move alike in rows on one to eight workers") {
         if (lks_simd_is_available(static_cast<lks_simd>(level)) == 0) {
             continue;
         }
-        for (std::uint32_t workers = 1; workers <= 8; ++workers) {
+        for (const std::uint32_t workers : {1u, 2u, 3u, 8u}) {
             CAPTURE(level);
             CAPTURE(workers);
             CHECK(hashes(most, mesh, static_cast<lks_simd>(level), workers, few) == expected);
