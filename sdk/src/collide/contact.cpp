@@ -5,6 +5,7 @@
 
 #include "collide/saturation.h"
 #include "collide/trace.h"
+#include "collide/wide_response.h"
 
 namespace lks {
 namespace {
@@ -202,73 +203,9 @@ std::uint64_t without_misses(const ContactFrame& frame, const ParticleArrays& pa
 
 constexpr std::uint32_t particles_at_once = 64;
 
-// Several at a time, where the kernels can.
-class WideResponse {
-public:
-    WideResponse(const ContactFrame& frame, const ParticleArrays& particles, Respond respond)
-        : respond_(centres_are_near(frame) ? respond : nullptr) {
-        if (respond_ != nullptr) {
-            task_ = make_task(frame, particles);
-        }
-    }
-
-    // Which of those whose bits are set are left.
-    std::uint64_t operator()(std::uint32_t first, std::uint32_t count, std::uint64_t near) const {
-        return respond_ == nullptr || near == 0 ? near : respond_(task_, first, count, near);
-    }
-
-private:
-    static bool centres_are_near(const ContactFrame& frame) {
-        const auto near = [](const fixed::Vec3& v) {
-            constexpr auto limit = static_cast<std::uint64_t>(response_centre_limit);
-            return fixed::magnitude(v.x) <= limit && fixed::magnitude(v.y) <= limit &&
-                   fixed::magnitude(v.z) <= limit;
-        };
-        return near(frame.start_centre) && near(frame.end_centre);
-    }
-    static ResponseTask make_task(const ContactFrame& frame, const ParticleArrays& particles) {
-        const Shape& shape = frame.shape;
-        const fixed::Vec3& a = frame.start_centre;
-        const fixed::Vec3& b = frame.end_centre;
-        const fixed::Matrix3 none = fixed::to_matrix(fixed::identity_rotation());
-        ResponseTask task{{particles.x, particles.y, particles.z},
-                          {particles.start_x, particles.start_y, particles.start_z},
-                          (shape.kind == LKS_SHAPE_PLANE ? 0 : shape.radius) + frame.margin,
-                          shape.half_length,
-                          {shape.half_extents.x, shape.half_extents.y, shape.half_extents.z},
-                          !(frame.start_rotation == none) || !(frame.end_rotation == none),
-                          {},
-                          {},
-                          {a.x, a.y, a.z},
-                          {b.x, b.y, b.z},
-                          frame.static_friction,
-                          frame.dynamic_friction,
-                          frame.greatest_recovery,
-                          contact_tolerance};
-        for (int row = 0; row < 3; ++row) {
-            for (int column = 0; column < 3; ++column) {
-                task.start_rotation[row][column] = frame.start_rotation.m[row][column];
-                task.end_rotation[row][column] = frame.end_rotation.m[row][column];
-            }
-        }
-        return task;
-    }
-
-    Respond respond_;
-    ResponseTask task_;
-};
-
-template <lks_shape_kind kind>
-Respond response_to(const ResponseKernels& kernels) {
-    return kind == LKS_SHAPE_SPHERE    ? kernels.sphere
-           : kind == LKS_SHAPE_CAPSULE ? kernels.capsule
-           : kind == LKS_SHAPE_BOX     ? kernels.box
-                                       : kernels.plane;
-}
-
 // Calls resolve(i) for those of the particles whose bit near(first, count) sets, and respond() leaves.
 template <typename Near, typename Resolve>
-void visit_near(std::uint32_t first, std::uint32_t count, const Near& near, const WideResponse& respond,
+void visit_near(std::uint32_t first, std::uint32_t count, const Near& near, WideResponse& respond,
                 const Resolve& resolve) {
     const std::uint32_t last = first + count;
     for (std::uint32_t i = first; i < last; i += particles_at_once) {
@@ -312,8 +249,7 @@ template <lks_shape_kind kind>
 void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
                    std::uint32_t count, const Kernels& kernels, ContactReaction* reaction) {
     const auto resolve = [&](std::uint32_t i) { resolve_solid_contact<kind>(frame, particles, i, reaction); };
-    const WideResponse respond(frame, particles,
-                               reaction == nullptr ? response_to<kind>(kernels.respond) : nullptr);
+    WideResponse respond(frame, particles, kernels.respond, reaction);
     if (frame.rotating && (!frame.has_box || frame.greatest_growth == INT64_MAX)) {
         // Nothing can be said of all of them.
         const auto near = [&](std::uint32_t i, std::uint32_t n) {
@@ -350,8 +286,7 @@ void resolve_plane(const ContactFrame& frame, const ParticleArrays& particles, s
                          {a, b, d},
                          certainly_above + a * (c.x >> 32) + b * (c.y >> 32) + d * (c.z >> 32)};
     const auto near = [&](std::uint32_t i, std::uint32_t n) { return kernels.near_plane(task, i, n); };
-    const WideResponse respond(frame, particles,
-                               reaction == nullptr ? response_to<LKS_SHAPE_PLANE>(kernels.respond) : nullptr);
+    WideResponse respond(frame, particles, kernels.respond, reaction);
     visit_near(first, count, near, respond, [&](std::uint32_t i) {
         Way way{};
         way.end = plane_local(r, position_of(particles, i), c);

@@ -1,21 +1,15 @@
 // A straight way against one shape, in the shape's own frame. Shape and way in any one format.
 #pragma once
 
-#include <algorithm>
-#include <bit>
-
 #include "collide/shape.h"
+#include "kernels/way_share.h"
 
 namespace lks {
 
 // rest · (distance / closing), rounded towards zero; 0 <= distance < closing.
 constexpr fixed::Vec3 advance(const fixed::Vec3& rest, std::int64_t distance, std::int64_t closing) {
-    const int shift = std::max(0, 32 - std::countl_zero(static_cast<std::uint64_t>(closing)));
-    const std::uint64_t divisor = (static_cast<std::uint64_t>(closing) >> shift) + 1;
-    const std::uint64_t share = ((static_cast<std::uint64_t>(distance) >> shift) << 30) / divisor; // Q30, < 1
-    const auto factor = static_cast<std::int32_t>(share);
-    return {fixed::scale_component(factor, rest.x), fixed::scale_component(factor, rest.y),
-            fixed::scale_component(factor, rest.z)};
+    return fixed::scaled(way_share(static_cast<std::uint64_t>(distance), static_cast<std::uint64_t>(closing)),
+                         rest);
 }
 
 // Follows the way from an outside start until it meets the shape. Sphere tracing (Hart 1996) would go on by

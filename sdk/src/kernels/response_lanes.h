@@ -8,6 +8,7 @@
 #include "fixed/formats.h"
 #include "kernels/leave_lanes.h"
 #include "kernels/surface_lanes.h"
+#include "kernels/way_share.h"
 
 namespace lks {
 namespace {
@@ -172,21 +173,16 @@ private:
     }
     static constexpr int greatest_steps = 40; // nearly all take fewer than 25
 
-    // advance() of collide/trace.h
     static R shares(R distance, R closing, std::uint32_t wanted) {
         alignas(64) std::int64_t distances[L::half], closings[L::half], result[L::half];
         L::store(distances, distance);
         L::store(closings, closing);
         for (std::uint32_t i = 0; i < L::half; ++i) {
-            result[i] = (wanted >> i & 1) != 0 ? share_of(static_cast<std::uint64_t>(distances[i]),
-                                                          static_cast<std::uint64_t>(closings[i]))
+            result[i] = (wanted >> i & 1) != 0 ? way_share(static_cast<std::uint64_t>(distances[i]),
+                                                           static_cast<std::uint64_t>(closings[i]))
                                                : 0;
         }
         return L::load(result);
-    }
-    static std::int64_t share_of(std::uint64_t distance, std::uint64_t closing) {
-        const int shift = std::max(0, 32 - std::countl_zero(closing));
-        return static_cast<std::int64_t>(((distance >> shift) << 30) / ((closing >> shift) + 1));
     }
 
     LKS_FORCE_INLINE Contact take_depth(R depth, R start_depth) const {

@@ -26,9 +26,9 @@ public:
 
     explicit SurfaceLanes(const ResponseTask& task)
         : radius_(L::set(task.radius)),
-          half_length_(task.half_length), half_extents_{L::set(task.half_extents[0]),
-                                                        L::set(task.half_extents[1]),
-                                                        L::set(task.half_extents[2])} {}
+          half_length_(L::set(task.half_length)), half_extents_{L::set(task.half_extents[0]),
+                                                                L::set(task.half_extents[1]),
+                                                                L::set(task.half_extents[2])} {}
 
     // Negative where the shape is further than `reach`, below 2^61, from p.
     LKS_FORCE_INLINE R beyond(const Vector& p, R reach) const {
@@ -53,16 +53,12 @@ public:
     }
 
 private:
-    LKS_FORCE_INLINE static R clamp(R v, R limit) {
-        return L::maximum_signed(L::minimum_signed(v, limit), L::subtract(L::set(0), limit));
-    }
     LKS_FORCE_INLINE Vector offset_from_core(const Vector& p) const {
         if constexpr (kind == LKS_SHAPE_CAPSULE) {
             return {p.x, L::subtract(p.y, V::clamp(p.y, half_length_)), p.z};
         } else if constexpr (kind == LKS_SHAPE_BOX) {
             const Vector& h = half_extents_;
-            return {L::subtract(p.x, clamp(p.x, h.x)), L::subtract(p.y, clamp(p.y, h.y)),
-                    L::subtract(p.z, clamp(p.z, h.z))};
+            return V::subtract(p, {V::clamp(p.x, h.x), V::clamp(p.y, h.y), V::clamp(p.z, h.z)});
         } else {
             return p;
         }
@@ -126,7 +122,7 @@ private:
     }
 
     R radius_;
-    std::int64_t half_length_;
+    R half_length_;
     Vector half_extents_;
 };
 

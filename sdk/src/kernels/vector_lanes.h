@@ -22,9 +22,10 @@ struct VectorLanes {
     LKS_FORCE_INLINE static Vector negate(const Vector& a) {
         return subtract({L::set(0), L::set(0), L::set(0)}, a);
     }
-    LKS_FORCE_INLINE static R clamp(R v, std::int64_t limit) {
-        return L::maximum_signed(L::minimum_signed(v, L::set(limit)), L::set(-limit));
+    LKS_FORCE_INLINE static R clamp(R v, R limit) {
+        return L::maximum_signed(L::minimum_signed(v, limit), L::subtract(L::set(0), limit));
     }
+    LKS_FORCE_INLINE static R clamp(R v, std::int64_t limit) { return clamp(v, L::set(limit)); }
     LKS_FORCE_INLINE static Vector clamp(const Vector& v, std::int64_t limit) {
         return {clamp(v.x, limit), clamp(v.y, limit), clamp(v.z, limit)};
     }
