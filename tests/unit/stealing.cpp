@@ -37,38 +37,32 @@ const lks::Kernels& prompt() {
 
 // The kernels of this machine, none of which starts or ends on time.
 const lks::Kernels& dawdling() {
-    static const lks::Kernels kernels{
-        prompt().level,
-        prompt().side_by_side,
-        1024, // whatever this machine makes of it: there are blocks to steal
-        [](const lks::DistanceTask& task) {
+    static const lks::Kernels kernels = [] {
+        lks::Kernels late = prompt();
+        late.constraints_a_block = 1024; // whatever this machine makes of it: there are blocks to steal
+        late.project_distances = [](const lks::DistanceTask& task) {
             dawdle();
             prompt().project_distances(task);
             dawdle();
-        },
-        [](const lks::PredictionTask& task) {
+        };
+        late.predict = [](const lks::PredictionTask& task) {
             dawdle();
             return prompt().predict(task);
-        },
-        [](const std::int64_t* values, std::size_t count) {
+        };
+        late.range = [](const std::int64_t* values, std::size_t count) {
             dawdle();
             return prompt().range(values, count);
-        },
-        prompt().greatest_gap,
-        [](const lks::BoxTask& task, std::uint32_t first, std::uint32_t count) {
+        };
+        late.near_box = [](const lks::BoxTask& task, std::uint32_t first, std::uint32_t count) {
             dawdle();
             return prompt().near_box(task, first, count);
-        },
-        prompt().near_plane,
-        prompt().respond,
-        [](const lks::TetherTask& task, std::uint32_t first, std::uint32_t count) {
+        };
+        late.beyond_tether = [](const lks::TetherTask& task, std::uint32_t first, std::uint32_t count) {
             dawdle();
             return prompt().beyond_tether(task, first, count);
-        },
-        prompt().chain,
-        prompt().trees,
-        prompt().rows,
-        prompt().hash_update};
+        };
+        return late;
+    }();
     return kernels;
 }
 

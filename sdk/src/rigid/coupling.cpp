@@ -117,8 +117,8 @@ private:
         for (const Pin& pin : object.pins()) {
             include(bounds, pin.target);
         }
-        const std::int64_t motion =
-            world_from_coordinate(object.greatest_motion()) * static_cast<std::int64_t>(world_.rate.substeps);
+        const std::int64_t motion = world_from_coordinate(object.greatest_motion(*world_.kernels)) *
+                                    static_cast<std::int64_t>(world_.rate.substeps);
         const std::int64_t reach =
             near_distance + fall_ + 2 * motion + world_from_coordinate(object.asset().particle_radius) + 1;
         const Vec3& o = object.origin;

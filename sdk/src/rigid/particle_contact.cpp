@@ -180,7 +180,7 @@ const Bounds& SweptParticles::bounds() {
 
 std::int64_t SweptParticles::greatest_growth() {
     if (!growth_known_) {
-        growth_ = object_.greatest_way(kernels_) / 2 + 1;
+        growth_ = object_.greatest_growth(kernels_);
         growth_known_ = true;
     }
     return growth_;

@@ -95,17 +95,14 @@ void RigidSubstep::in_figures(const Use& use) {
     in_bundles([&](const FigureBundle& bundle) { for_each_figure(bundle, use); });
 }
 
-// use(figure), for those that go on against what stops them; their trees have factors of their own.
+// use(figure, bundle, number in it), for those that go on against what stops them.
 template <typename Use>
 void RigidSubstep::in_struck(const Use& use) {
     in_bundles([&](const FigureBundle& bundle) {
         for (std::uint32_t i = bundle.first; i < bundle.end; ++i) {
             const FigureRange& figure = scene_.figure_ranges[i];
             if (is_struck(figure)) {
-                if (bundle.is_wide()) {
-                    hand_out_factors(scene_, bundle, i - bundle.first);
-                }
-                use(figure);
+                use(figure, bundle, i - bundle.first);
             }
         }
     });
@@ -340,7 +337,10 @@ bool RigidSubstep::are_struck(const Contact& shared) const {
 void RigidSubstep::stop_hard_impacts() {
     constexpr int most_rounds = 16;
     for (int round = 0; round < most_rounds && find_hard_impacts(); ++round) {
-        in_struck([this](const FigureRange& figure) {
+        in_struck([this](const FigureRange& figure, const FigureBundle& bundle, std::uint32_t number) {
+            if (bundle.is_wide()) {
+                hand_out_factors(scene_, bundle, number);
+            }
             project_joints(figure);
             solve_trees(figure);
             project_contacts(figure);
@@ -357,7 +357,7 @@ void RigidSubstep::stop_hard_impacts() {
                 project_contact(shared[k], true);
             }
         }
-        in_struck([this](const FigureRange& figure) {
+        in_struck([this](const FigureRange& figure, const FigureBundle&, std::uint32_t) {
             project_back(figure);
             solve_trees(figure);
         });

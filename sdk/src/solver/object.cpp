@@ -156,23 +156,21 @@ Bounds Object::swept_bounds(const Kernels& kernels, std::uint32_t first, std::ui
     return make_bounds(ranges);
 }
 
-std::int64_t Object::greatest_motion() const {
+std::int64_t Object::greatest_motion(const Kernels& kernels) const {
     std::uint64_t greatest = 0;
     for (int i = 0; i < 3; ++i) {
-        for (std::uint32_t k = 0; k < count(); ++k) {
-            const std::int64_t motion = fixed::wrapping_subtract(axis(i)[k], start_axis(i)[k]);
-            greatest = std::max(greatest, fixed::magnitude(motion));
-        }
+        greatest = std::max(greatest, kernels.greatest_gap(axis(i), start_axis(i), count()));
     }
     return static_cast<std::int64_t>(std::min<std::uint64_t>(greatest, substep_motion_limit));
 }
 
-std::int64_t Object::greatest_way(const Kernels& kernels) const {
-    std::uint64_t quarters = 0; // the sum may have 66 bits
+std::int64_t Object::greatest_growth(const Kernels& kernels) const {
+    std::uint64_t quarters = 0; // of the ways along the axes, of which the sum may have 66 bits
     for (int i = 0; i < 3; ++i) {
         quarters += kernels.greatest_gap(axis(i), start_axis(i), count()) / 4 + 1;
     }
-    return quarters > INT64_MAX / 4 ? INT64_MAX : static_cast<std::int64_t>(4 * quarters);
+    const std::int64_t way = quarters > INT64_MAX / 4 ? INT64_MAX : static_cast<std::int64_t>(4 * quarters);
+    return way / 2 + 1;
 }
 
 } // namespace lks

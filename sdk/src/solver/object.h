@@ -106,9 +106,10 @@ public:
 
     Bounds bounds(const Kernels& kernels) const;
     // Of any particle on any axis in the last substep, at most substep_motion_limit.
-    std::int64_t greatest_motion() const;
-    // A bound of the sum over the axes of how far any particle has come in the substep.
-    std::int64_t greatest_way(const Kernels& kernels) const;
+    std::int64_t greatest_motion(const Kernels& kernels) const;
+    // By how much the box of any particle's way through the substep is to grow at most where a shape turns
+    // (collide/collider_motion.h).
+    std::int64_t greatest_growth(const Kernels& kernels) const;
     // Of where some of the particles are and were at the start of the substep.
     Bounds swept_bounds(const Kernels& kernels, std::uint32_t first, std::uint32_t count) const;
 

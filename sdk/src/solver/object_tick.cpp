@@ -137,8 +137,8 @@ public:
             ContactFrame frame = make_contact_frame(collider, substep, world_.rate.substeps, object_.origin,
                                                     swept, asset_.particle_radius, asset_.friction);
             frame.greatest_recovery = world_.rate.greatest_recovery;
-            if (frame.rotating) {
-                frame.greatest_growth = object_.greatest_way(*world_.kernels) / 2 + 1;
+            if (frame.rotating && frame.reachable) {
+                frame.greatest_growth = object_.greatest_growth(*world_.kernels);
             }
             in_blocks(object_.count(), particles_a_block,
                       [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
