@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "stability/support/nets.h"
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
 
@@ -28,13 +29,8 @@ void hang(const Size& size, bool tethered) {
     if (tethered) {
         net.anchors = {0, size.side - 1};
     }
-    const Asset asset = net.build();
-    Subject subject = subject_of(net, asset);
-    subject.world = world_def(size.hz, size.substeps);
-    subject.transform = turned(lks_transform_identity(), 1, 0, 0, 90);
-    Trial trial(subject);
-    trial.pin(0);
-    trial.pin(net.side - 1);
+    HangingNet hanging(net, world_def(size.hz, size.substeps));
+    Trial& trial = hanging.trial;
     trial.run(size.ticks);
     const std::string name =
         named(tethered ? "tethered cloth " : "cloth ", size.side, " × ", size.side, ", edges of ", size.edge,

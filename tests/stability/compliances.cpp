@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "stability/support/nets.h"
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
 
@@ -27,22 +28,12 @@ struct Worst {
 };
 
 void hang(Worst& fixed, Worst& single, bool tethered, double stretch, double shear, double bend) {
-    Net net;
-    net.side = 12;
-    net.width = 1;
-    net.particle_mass = 0.01;
+    Net net = small_net(tethered);
     net.stretch = material(stretch);
     net.shear = material(shear);
     net.bend = material(bend);
-    if (tethered) {
-        net.anchors = {0, net.side - 1};
-    }
-    const Asset asset = net.build();
-    Subject subject = subject_of(net, asset);
-    subject.transform = turned(lks_transform_identity(), 1, 0, 0, 90);
-    Trial trial(subject);
-    trial.pin(0);
-    trial.pin(net.side - 1);
+    HangingNet hanging(net);
+    Trial& trial = hanging.trial;
     trial.run(long_runs() ? 240 : 60);
     CHECK(trial.fixed().is_finite());
     fixed.add(trial.fixed());

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "stability/support/jointed.h"
+#include "stability/support/nets.h"
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
 
@@ -64,21 +65,11 @@ void hang_cloths(bool tethered) {
         const double compliance = soft_one ? 1e-2 : 1e-6;
         for (int i = 0; i < 6; ++i) {
             const double factor = factors[i];
-            Net net;
-            net.side = 12;
-            net.width = 1;
-            net.particle_mass = 0.01;
+            Net net = small_net(tethered);
             const double critical = 2 * std::sqrt(net.particle_mass / compliance);
             net.stretch = net.shear = net.bend = soft(compliance, factor * critical);
-            if (tethered) {
-                net.anchors = {0, net.side - 1};
-            }
-            const Asset asset = net.build();
-            Subject subject = subject_of(net, asset);
-            subject.transform = turned(lks_transform_identity(), 1, 0, 0, 90);
-            Trial trial(subject);
-            trial.pin(0);
-            trial.pin(net.side - 1);
+            HangingNet hanging(net);
+            Trial& trial = hanging.trial;
             trial.run(240);
             const std::string name = name_of(
                 named(tethered ? "tethered cloth" : "cloth", " 12 × 12, ", compliance, " m/N"), factor);
@@ -92,24 +83,14 @@ void hang_cloths(bool tethered) {
 // Threads that do not give, shear and bend soft and damped. A limit: what the threads are moved by is motion
 // to the damping of the others, which from ten times critical on are as stiff against it.
 void hang_undamped_threads(bool tethered, double factor) {
-    Net net;
-    net.side = 12;
-    net.width = 1;
-    net.particle_mass = 0.01;
+    Net net = small_net(tethered);
     const auto damped = [&](double compliance) {
         return soft(compliance, factor * 2 * std::sqrt(net.particle_mass / compliance));
     };
     net.shear = damped(1e-5);
     net.bend = damped(1e-2);
-    if (tethered) {
-        net.anchors = {0, net.side - 1};
-    }
-    const Asset asset = net.build();
-    Subject subject = subject_of(net, asset);
-    subject.transform = turned(lks_transform_identity(), 1, 0, 0, 90);
-    Trial trial(subject);
-    trial.pin(0);
-    trial.pin(net.side - 1);
+    HangingNet hanging(net);
+    Trial& trial = hanging.trial;
     trial.run(240);
     const std::string name =
         name_of(named(tethered ? "tethered cloth" : "cloth", " 12 × 12, only shear and bend damped"), factor);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/asset_model.h"
+#include "stability/support/nets.h"
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
 
@@ -29,13 +30,8 @@ void hang(const Bound& bound) {
     Net net;
     net.side = bound.side;
     net.particle_mass = 1.0 / (static_cast<double>(bound.side) * bound.side);
-    const Asset asset = net.build();
-    Subject subject = subject_of(net, asset);
-    subject.world = world_def(60, bound.substeps);
-    subject.transform = turned(lks_transform_identity(), 1, 0, 0, 90);
-    Trial trial(subject);
-    trial.pin(0);
-    trial.pin(net.side - 1);
+    HangingNet hanging(net, world_def(60, bound.substeps));
+    Trial& trial = hanging.trial;
     trial.run(bound.ticks);
     const std::string scene =
         named("cloth ", bound.side, " × ", bound.side, ", ", bound.substeps, " × 1, ", bound.ticks, " ticks");

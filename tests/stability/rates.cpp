@@ -4,6 +4,7 @@
 #include <string>
 
 #include "stability/support/jointed.h"
+#include "stability/support/nets.h"
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
 
@@ -30,13 +31,8 @@ void hang(const Rate& rate, bool tethered) {
     if (tethered) {
         net.anchors = {0, net.side - 1};
     }
-    const Asset asset = net.build();
-    Subject subject = subject_of(net, asset);
-    subject.world = world_def(rate.hz, rate.substeps);
-    subject.transform = turned(lks_transform_identity(), 1, 0, 0, 90);
-    Trial trial(subject);
-    trial.pin(0);
-    trial.pin(net.side - 1);
+    HangingNet hanging(net, world_def(rate.hz, rate.substeps));
+    Trial& trial = hanging.trial;
     trial.run(ticks_of(rate.hz, rate.substeps));
     const std::string name =
         named(tethered ? "tethered cloth" : "cloth", " 32 × 32, ", rate.hz, " Hz × ", rate.substeps);

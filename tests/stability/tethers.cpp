@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "stability/support/nets.h"
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
 
@@ -18,13 +19,8 @@ void hang(std::uint32_t side, std::uint32_t substeps, int ticks, double stretch)
     net.side = side;
     net.particle_mass = 1.0 / (static_cast<double>(side) * side);
     net.anchors = {0, side - 1};
-    const Asset asset = net.build();
-    Subject subject = subject_of(net, asset);
-    subject.world = world_def(60, substeps);
-    subject.transform = turned(lks_transform_identity(), 1, 0, 0, 90);
-    Trial trial(subject);
-    trial.pin(0);
-    trial.pin(side - 1);
+    HangingNet hanging(net, world_def(60, substeps));
+    Trial& trial = hanging.trial;
     trial.run(ticks);
     const std::string scene =
         named("tethered cloth ", side, " × ", side, ", ", substeps, " × 1, ", ticks, " ticks");
