@@ -88,6 +88,7 @@ struct Problem {
     std::vector<std::int64_t> multipliers;
     std::vector<std::uint32_t> rests, shares_a, shares_b, relaxations;
     ConstraintRange unequal_shares{};
+    bool few_unequal; // the same
     DistanceParameters parameters{};
 };
 
@@ -142,6 +143,7 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
         problem.positions[i] = signed_below(random, 61);
     }
     const std::size_t padded = count + widest_group - 1;
+    problem.few_unequal = random.below(2) == 0;
     // Everywhere, or in a part.
     if (!kind.equal_shares) {
         problem.unequal_shares = {0, static_cast<std::uint32_t>(count)};
@@ -228,6 +230,7 @@ BatchPart make_part(const Batch& batch, const Problem& problem, ConstraintRange 
     part.whole = range.first == 0 && range.last == batch.constraints.size();
     part.first_single = batch.first_single;
     part.unequal_shares = problem.unequal_shares;
+    part.few_unequal = problem.few_unequal;
     return part;
 }
 

@@ -35,7 +35,8 @@ template <typename L, typename Access>
 struct RollingGroup {
     Access at;
     StagedGroup<L> staged;
-    bool apart; // it can't move as most do
+    bool apart;   // it goes in plain integers
+    bool unequal; // some have ends with shares of their own
 };
 
 template <typename L, bool soft, bool damped, bool multiplier>
@@ -169,6 +170,11 @@ public:
         sums = of_next;
     }
 
+    // Where ends have shares of their own.
+    template <typename Access>
+    LKS_FORCE_INLINE void move_unequal(const Access& at, const StagedGroup<L>& group, const N& f) const {
+        move_by_share(at, group.d, f, at.load(task_.shares_a), at.load(task_.shares_b));
+    }
     // Whether both ends move alike.
     template <typename Access>
     LKS_FORCE_INLINE bool alike(const Access& at) const {

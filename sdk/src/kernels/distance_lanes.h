@@ -229,18 +229,17 @@ private:
     PartialAccess<L> short_[PartialAccess<L>::together];
 };
 
-// Whether it pays that `count` constraints of a part roll: there are many, and not all of the part's have
-// ends with shares of their own.
+// Whether it pays that `count` constraints of a part roll: there are many, and few have ends with shares of
+// their own.
 template <typename L>
 inline bool rolls(const BatchPart& part, std::uint32_t count) {
-    const ConstraintRange unequal = part.unequal_shares;
-    return count >= L::rolls_from && !(unequal.first <= part.range.first && part.range.last <= unequal.last);
+    return count >= L::rolls_from && part.few_unequal;
 }
 
-template <typename L, typename Groups, typename Stage>
+template <typename L, bool mixed, typename Groups, typename Stage>
 LKS_NEVER_INLINE void project_rolling(const BatchPart& part, const Groups& groups, const Stage& stages) {
     RunGroups<L, Stage> runs(part, stages);
-    Rolling<L, RunAccess<L>, Groups, Stage>(groups, stages).project(runs);
+    Rolling<L, mixed, RunAccess<L>, Groups, Stage>(groups, stages).project(runs);
     runs.finish();
 }
 
@@ -266,7 +265,9 @@ template <typename L, bool may_roll, typename Groups, typename Stage>
 inline void project_runs(const BatchPart& part, const Groups& groups, const Stage& stages) {
     if constexpr (may_roll) {
         if (rolls<L>(part, singles(part).first - part.range.first)) {
-            project_rolling<L>(part, groups, stages);
+            const bool mixed = part.unequal_shares.first != part.unequal_shares.last;
+            mixed ? project_rolling<L, true>(part, groups, stages)
+                  : project_rolling<L, false>(part, groups, stages);
             return;
         }
     }
@@ -323,7 +324,7 @@ inline void project_rows(const DistanceTask& task, const BatchPart& part, const 
         if (rolls<L>(part, rest.last - rest.first)) {
             using Access = RowsAccess<L, true>;
             ListedGroups<Access> listed(task.constraints, rest);
-            Rolling<L, Access, Groups, Stage>(groups, stages).project(listed);
+            Rolling<L, false, Access, Groups, Stage>(groups, stages).project(listed);
         }
     }
     project_listed<L, RowsAccess<L, false>>(task, rest, stages);

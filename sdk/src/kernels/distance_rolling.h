@@ -16,7 +16,9 @@
 namespace lks {
 namespace {
 
-template <typename L, typename Access, typename Groups, typename Stage>
+// `mixed`: some groups have ends that do not move alike. Otherwise they are rare, and go apart: that there
+// may be some costs all others 2 % of their time.
+template <typename L, bool mixed, typename Access, typename Groups, typename Stage>
 class Rolling {
 public:
     Rolling(const Groups& groups, const Stage& stages) : groups_(groups), stages_(stages) {}
@@ -42,10 +44,10 @@ private:
         before_->at = now_->at;
         groups_.begin(*now_, sums_);
         in_octave_ = now_->staged.in_octave;
-        now_->apart = is_apart(*now_);
+        look_at(*now_);
         std::copy_n(now_->staged.d, 3, before_->staged.d);
         f_ = FactorsOf<L>::none();
-        before_->apart = false;
+        before_->apart = before_->unequal = false;
     }
 
     // A group and those that follow it in its run, until one is to move apart, or is not of the octave.
@@ -67,8 +69,12 @@ private:
         auto sums = sums_;
         Factors<L> f = f_;
         do {
+            if (mixed && before->unequal) {
+                groups.move_unequal(before->at, before->staged, f);
+                f = FactorsOf<L>::none();
+            }
             groups.template roll<in_octave>(*before, *now, *next, sums, f);
-            next->apart = is_apart(*next);
+            look_at(*next);
             RollingGroup<L, Access>* const free = before;
             before = now;
             now = next;
@@ -82,8 +88,10 @@ private:
         f_ = f;
     }
 
-    LKS_FORCE_INLINE bool is_apart(const RollingGroup<L, Access>& group) const {
-        return group.staged.plain || (stages_.may_differ(group.at) && !groups_.alike(group.at));
+    LKS_FORCE_INLINE void look_at(RollingGroup<L, Access>& group) const {
+        const auto unequal = [&] { return stages_.may_differ(group.at) && !groups_.alike(group.at); };
+        group.apart = group.staged.plain || (!mixed && unequal());
+        group.unequal = mixed && !group.apart && unequal();
     }
 
     LKS_NEVER_INLINE void settle(RollingGroup<L, Access>& group) {

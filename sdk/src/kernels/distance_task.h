@@ -53,7 +53,8 @@ struct BatchPart {
     std::uint32_t first_single; // constraint: from here on its ends are in the task's `constraints`
     // Outside of these, which need not be in `range`, both ends have the same share.
     ConstraintRange unequal_shares;
-    bool whole; // nobody else is at work on the batch
+    bool few_unequal; // of the batch: it pays to take them out
+    bool whole;       // nobody else is at work on the batch
 };
 
 // Where a particle stands in the arrays of an object, or of one that is side by side with it.

@@ -109,6 +109,9 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
         batches[b].share_exponent = std::clamp(exponent, 0, 40);
         batches[b].parameters = distance_parameters(batch, batches[b].share_exponent, families[batch.family]);
         batches[b].unequal_shares = {};
+        batches[b].unequal_count = 0;
+        std::fill_n(shares_a.data() + batch.first, batch.count, 0);
+        std::fill_n(shares_b.data() + batch.first, batch.count, 0);
         for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
             update_constraint(asset, rate, none, i, b);
         }
@@ -150,7 +153,9 @@ void Coefficients::update_constraint(const lks_asset& asset, const StepRate& rat
     const Scaled w_b = inverse_mass(asset, pinned, ends.b);
     const FamilyTerms terms = family_terms(asset.families[family], rate);
     const Scaled effective = w_a + w_b + terms.softness;
-    const std::int32_t exponent = batches[batch].share_exponent;
+    BatchCoefficients& of_batch = batches[batch];
+    const std::int32_t exponent = of_batch.share_exponent;
+    const bool was_unequal = shares_a[constraint] != shares_b[constraint];
     if (w_a.is_zero() && w_b.is_zero()) {
         shares_a[constraint] = 0;
         shares_b[constraint] = 0;
@@ -158,10 +163,12 @@ void Coefficients::update_constraint(const lks_asset& asset, const StepRate& rat
         shares_a[constraint] = to_share(w_a / effective, exponent);
         shares_b[constraint] = to_share(w_b / effective, exponent);
     }
-    if (shares_a[constraint] != shares_b[constraint]) {
+    const bool is_unequal = shares_a[constraint] != shares_b[constraint];
+    if (is_unequal) {
         // Never taken back: that would need a look at the whole batch.
-        include(batches[batch].unequal_shares, constraint);
+        include(of_batch.unequal_shares, constraint);
     }
+    of_batch.unequal_count += (is_unequal ? 1U : 0U) - (was_unequal ? 1U : 0U);
     if (!relaxations.empty()) {
         relaxations[constraint] = effective.is_zero() ? 0 : to_share(terms.softness / effective);
     }

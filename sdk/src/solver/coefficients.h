@@ -30,6 +30,7 @@ struct BatchCoefficients {
     std::int32_t share_exponent = 0; // s = share · 2^-(31 + share_exponent)
     // Outside of these s_a = s_b, so that nobody need look. Within it says nothing.
     ConstraintRange unequal_shares{};
+    std::uint32_t unequal_count = 0; // constraints for which s_a ≠ s_b
 };
 
 // Which particles have infinite mass although the asset gives them one: ascending indices.

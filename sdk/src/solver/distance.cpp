@@ -19,6 +19,7 @@ BatchPart whole_batch(const lks_asset& asset, const Coefficients& coefficients, 
             batch.run_count,
             batch.first_single,
             coefficients.batches[index].unequal_shares,
+            coefficients.batches[index].unequal_count <= batch.count / 8,
             true};
 }
 
