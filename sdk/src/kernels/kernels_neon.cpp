@@ -9,6 +9,7 @@
 #include "kernels/lanes_neon.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/range_lanes.h"
+#include "kernels/response_lanes.h"
 #include "kernels/tether_lanes.h"
 
 namespace lks {
@@ -22,7 +23,7 @@ constinit const Kernels kernels_neon{LKS_SIMD_NEON,
                                      greatest_gap_lanes<LanesNeon>,
                                      near_box_lanes<LanesNeon>,
                                      near_plane_lanes<LanesNeon>,
-                                     no_response_kernels,
+                                     response_lanes_but_boxes<LanesNeon>(),
                                      beyond_tether_lanes<LanesNeon>,
                                      chain_lanes<LanesNeon>(),
                                      no_tree_kernels,

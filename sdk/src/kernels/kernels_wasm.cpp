@@ -9,6 +9,7 @@
 #include "kernels/lanes_wasm.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/range_lanes.h"
+#include "kernels/response_lanes.h"
 #include "kernels/tether_lanes.h"
 #include "kernels/twice_lanes.h"
 
@@ -23,7 +24,7 @@ constinit const Kernels kernels_wasm{LKS_SIMD_WASM,
                                      greatest_gap_lanes<LanesWasm>,
                                      near_box_lanes<LanesWasm>,
                                      near_plane_lanes<LanesWasm>,
-                                     no_response_kernels,
+                                     response_lanes_but_boxes<LanesWasm>(),
                                      beyond_tether_lanes<LanesWasm>,
                                      chain_lanes<LanesWasm>(),
                                      no_tree_kernels,

@@ -18,6 +18,7 @@ struct LanesNeon {
     static constexpr bool has_rows = false;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 3;
+    static constexpr std::uint32_t worth_a_response = 2;
     static constexpr std::uint32_t rolls_from = 0; // never
     using Register = uint64x2_t;
     using Shift = int64x2_t; // to the left: negative
@@ -53,6 +54,10 @@ struct LanesNeon {
     template <int count>
     static Register shift_right(Register v) {
         return vshrq_n_u64(v, count);
+    }
+    template <int count>
+    static Register shift_right_signed(Register v) {
+        return vreinterpretq_u64_s64(vshrq_n_s64(vreinterpretq_s64_u64(v), count));
     }
     template <int count>
     static Register shift_left(Register v) {

@@ -18,6 +18,7 @@ struct LanesWasm {
     static constexpr bool has_rows = false;
     // Fewer constraints are faster by themselves than as part of a group.
     static constexpr std::uint32_t worth_a_group = 3;
+    static constexpr std::uint32_t worth_a_response = 2;
     static constexpr std::uint32_t rolls_from = 0; // never
     using Register = v128_t;
     using Shift = std::uint32_t;
