@@ -233,24 +233,30 @@ private:
                 weights[figures_[joint.a]] = weights[figures_[joint.b]] = 0;
             }
         }
-        const auto part = [&](const Contact& contact) {
+        std::vector<Scalar> pushed(contacts_.size());
+        const auto part = [&](std::size_t k) {
+            const Contact& contact = contacts_[k];
             const std::size_t a = figures_[contact.a];
             const std::size_t b = figures_[contact.b];
             const Scalar weight = weights[a] + weights[b];
             Scalar apart = 0;
             if (a == b || weight == 0 ||
-                !contact.wants_apart(Scalar(0.4) / static_cast<Scalar>(settings_.tick_rate_hz), apart)) {
+                !contact.wants_apart(Scalar(0.07) / static_cast<Scalar>(settings_.tick_rate_hz), apart)) {
                 return;
             }
             const Scalar missing = apart - contact.normal.dot(shifts[b] - shifts[a]);
-            if (missing > 0) {
-                shifts[a] = shifts[a] - contact.normal * (missing * weights[a] / weight);
-                shifts[b] = shifts[b] + contact.normal * (missing * weights[b] / weight);
-            }
+            const Scalar push = std::max(apart > 0 ? (4 * missing - pushed[k]) / 5 : missing, -pushed[k]);
+            pushed[k] += push;
+            shifts[a] = shifts[a] - contact.normal * (push * weights[a] / weight);
+            shifts[b] = shifts[b] + contact.normal * (push * weights[b] / weight);
         };
         for (int sweep = 0; sweep < 4; ++sweep) {
-            std::for_each(contacts_.begin(), contacts_.end(), part);
-            std::for_each(contacts_.rbegin(), contacts_.rend(), part);
+            for (std::size_t k = 0; k < contacts_.size(); ++k) {
+                part(k);
+            }
+            for (std::size_t k = contacts_.size(); k-- > 0;) {
+                part(k);
+            }
         }
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
             if (bodies_[i].moves) {

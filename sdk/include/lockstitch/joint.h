@@ -55,11 +55,11 @@ typedef struct lks_joint_def {
     lks_fixed damping;            /* of soft points, N·s/m, 0 .. 1000000 */
     lks_fixed angular_compliance; /* of what hinges and fixed joints hold, rad/(N·m), 0 .. 1000 */
     lks_fixed angular_damping;    /* N·m·s: resists turning by its speed, 0 .. 1000000 */
-    lks_fixed limit_compliance; /* of swing and twist beyond their limits, rad/(N·m), 0 .. 1000; 0: they are
-                                   not exceeded */
-    lks_fixed limit_damping;    /* of soft limits, N·m·s: resists going further beyond by its speed,
-                                   0 .. 1000000 */
-    lks_fixed friction;         /* N·m that resist turning, 0 .. 1000000 */
+    lks_fixed limit_compliance;   /* of swing and twist beyond their limits, rad/(N·m), 0 .. 1000; 0: rigid,
+                                     exceeded by a few degrees at most where substeps suffice */
+    lks_fixed limit_damping;      /* of soft limits, N·m·s: resists going further beyond by its speed,
+                                     0 .. 1000000 */
+    lks_fixed friction;           /* N·m that resist turning, 0 .. 1000000 */
     /* Where the mean of a tick exceeds them, the joint is removed at its end, with an event; 0: never. */
     lks_fixed break_force;  /* N at the points, 0 .. 8000000 */
     lks_fixed break_torque; /* N·m, 0 .. 8000000 */

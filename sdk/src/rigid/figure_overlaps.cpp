@@ -12,9 +12,12 @@ using fixed::Vec3;
 
 // Overlaps up to this are left to the contacts: a millimetre.
 constexpr std::int64_t allowed_overlap = (std::int64_t{1} << world_fraction_bits) / 1000;
-// Of the rest so much is undone in a tick, at 0.4 m/s at most.
+// Of the rest so much is undone in a tick, at 7 cm/s at most: what is lifted faster than that falls back as
+// fast, and a heap goes on falling into the ground and being lifted out of it.
 constexpr std::int64_t share_a_tick = 3; // the third part
-constexpr std::int64_t greatest_speed = (std::int64_t{2} << world_fraction_bits) / 5;
+constexpr std::int64_t greatest_speed = (std::int64_t{7} << world_fraction_bits) / 100;
+// Pairs that want opposite things meet between them: each asks for less by a quarter of what it has pushed.
+constexpr std::int64_t firmness = 4;
 constexpr int sweeps = 4; // forward and back
 
 // All masses together: 1/m divided by how many times m they are, 30 fraction bits, at least one.
@@ -145,16 +148,21 @@ private:
         return any;
     }
 
-    void part(const FigurePair& pair) {
+    // A push is taken back where others have made it needless.
+    void part(FigurePair& pair) {
         FigureShift& a = scene_.figure_shifts[pair.a];
         FigureShift& b = scene_.figure_shifts[pair.b];
         const std::int64_t missing = pair.parted - fixed::dot(pair.normal, b.shift - a.shift);
-        if (missing <= 0) {
+        const std::int64_t wanted_push =
+            pair.parted > 0 ? (firmness * missing - pair.pushed) / (firmness + 1) : missing;
+        const std::int64_t push = std::max(wanted_push, -pair.pushed);
+        if (push == 0) {
             return;
         }
+        pair.pushed += push;
         const std::int64_t weight = std::int64_t{pair.shares.a} + pair.shares.b;
         const auto along = [&](std::int32_t share) {
-            return fixed::scale(pair.normal, fixed::multiply_divide(missing, share, weight));
+            return fixed::scale(pair.normal, fixed::multiply_divide(push, share, weight));
         };
         a.shift = a.shift - along(pair.shares.a);
         b.shift = b.shift + along(pair.shares.b);

@@ -198,6 +198,22 @@ Vec3 limit_push(const Joint& joint, const Body& a, const Body& b) {
     return pushed;
 }
 
+std::int64_t exceeded_limits(const Joint& joint, const Body& a, const Body& b) {
+    if (are_soft(joint)) {
+        return 0;
+    }
+    std::int64_t beyond = 0;
+    Swing swing{};
+    if (joint.constants.swing_limited && find_swing(joint, a, b, swing)) {
+        beyond = swing.angle - std::max(swing.limit, joint.swing_start);
+    }
+    std::int64_t twist = 0;
+    if (joint.constants.twist_limited && find_twist(joint, a, b, twist)) {
+        beyond = std::max({beyond, twist - joint.twist_most, joint.twist_least - twist});
+    }
+    return beyond;
+}
+
 bool undo_limits(const Joint& joint, Body& a, Body& b) {
     if (are_soft(joint)) {
         return false;

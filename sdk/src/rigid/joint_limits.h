@@ -18,6 +18,8 @@ void carry_more_limits(Joint& joint, Body& a, Body& b, std::int32_t share);
 void project_limits(Joint& joint, Body& a, Body& b);
 // How they have pushed in this substep.
 fixed::Vec3 limit_push(const Joint& joint, const Body& a, const Body& b);
+// By how much limits without compliance were exceeded in this substep: World, radians; or nothing above zero.
+std::int64_t exceeded_limits(const Joint& joint, const Body& a, const Body& b);
 // After the velocities: what is left. True: it was more than half a degree.
 bool undo_limits(const Joint& joint, Body& a, Body& b);
 

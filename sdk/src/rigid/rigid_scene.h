@@ -49,10 +49,17 @@ struct FigurePair {
     PairShares shares;
     fixed::Direction normal; // from a to b
     std::int64_t parted;
+    std::int64_t pushed; // apart, by now
 };
 
 // What a load puts into a slot: nothing, what is defined as what is there, or something else.
 enum class Loaded : std::uint8_t { nothing, same, other };
+
+// Of what needs more iterations than others.
+struct FigureStrain {
+    bool is_held; // by a joint to what does not move
+    bool is_strained;
+};
 
 struct RigidScene {
     RigidScene(const lks_allocator& allocator, const TreeKernels& tree_kernels);
@@ -107,9 +114,9 @@ struct RigidScene {
     Array<std::uint32_t> shared_contacts; // of two figures, ascending
     Array<std::int32_t>
         figure_shares; // by awake figure: what is added to its pushes (rigid/carried_pushes.h)
-    Array<std::uint8_t> figures_changed; // by the least body: while shares are added
-    Array<std::uint8_t> struck_figures;  // by the least body; empty where nothing is hard
-    Array<FigureShift> figure_shifts;    // by the least body; and one for what stays
+    Array<std::uint8_t> figures_changed;  // by the least body: while shares are added
+    Array<FigureStrain> strained_figures; // by the least body; empty where none is
+    Array<FigureShift> figure_shifts;     // by the least body; and one for what stays
     Array<FigurePair> figure_pairs;
     Array<IslandRest> island_rests; // by the least body of an island
     // Objects that go through the tick together with bodies and with each other: a flag by slot, empty where

@@ -7,6 +7,7 @@
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"
 #include "rigid/figures.h"
+#include "rigid/joint_limits.h"
 #include "rigid/particle_contact.h"
 #include "rigid/wide_trees.h"
 #include "solver/object_tick.h"
@@ -48,7 +49,7 @@ void RigidSubstep::run(std::uint32_t substep) {
     for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
         iterate(substep);
     }
-    stop_hard_impacts();
+    relieve_strained();
     finish();
 }
 
@@ -95,13 +96,13 @@ void RigidSubstep::in_figures(const Use& use) {
     in_bundles([&](const FigureBundle& bundle) { for_each_figure(bundle, use); });
 }
 
-// use(figure, bundle, number in it), for those that go on against what stops them.
+// use(figure, bundle, number in it).
 template <typename Use>
-void RigidSubstep::in_struck(const Use& use) {
+void RigidSubstep::in_strained(const Use& use) {
     in_bundles([&](const FigureBundle& bundle) {
         for (std::uint32_t i = bundle.first; i < bundle.end; ++i) {
             const FigureRange& figure = scene_.figure_ranges[i];
-            if (is_struck(figure)) {
+            if (is_strained(figure)) {
                 use(figure, bundle, i - bundle.first);
             }
         }
@@ -302,42 +303,88 @@ void RigidSubstep::iterate(std::uint32_t substep) {
     collide_objects(substep);
 }
 
-// Figures that something stops which might pass them, or which they might pass, and that go on by more than a
-// centimetre: false where there are none.
-bool RigidSubstep::find_hard_impacts() {
+FigureStrain& RigidSubstep::strain_of(std::uint32_t body) {
+    static_cast<void>(scene_.strained_figures.resize(scene_.bodies.size())); // within its room
+    return scene_.strained_figures[scene_.figures[body]];
+}
+
+// What something stops that might pass it, or that it might pass, and that goes on by more than a centimetre.
+void RigidSubstep::mark_hard_impacts() {
     constexpr std::int64_t hard = (std::int64_t{1} << world_fraction_bits) / 100;
-    Array<std::uint8_t>& struck = scene_.struck_figures;
-    struck.clear();
     for (const Contact& contact : scene_.contacts) {
         const ContactBodies bodies = bodies_of(contact);
         if (!contact.fast || (bodies.a.jointed && bodies.b.jointed) || !closes(contact, bodies, hard)) {
             continue;
         }
-        static_cast<void>(struck.resize(scene_.bodies.size())); // within its room
-        struck[scene_.figures[contact.key.body_a]] = 1;
+        strain_of(contact.key.body_a).is_strained = true;
         if (contact.key.other < other_is_collider) {
-            struck[scene_.figures[contact.key.other]] = 1;
+            strain_of(contact.key.other).is_strained = true;
         }
     }
-    return !struck.empty();
 }
 
-bool RigidSubstep::is_struck(const FigureRange& figure) const {
-    return scene_.struck_figures[figure_of(scene_.figure_parts[figure.begin()])] != 0;
+// False: nobody is.
+bool RigidSubstep::mark_held() {
+    bool any = false;
+    for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+        if (!scene_.joint_slots[i].used) {
+            continue;
+        }
+        const JointDescription& d = scene_.joints[i].description;
+        const bool a_moves = scene_.bodies[d.body_a].is_awake();
+        const bool b_moves = scene_.bodies[d.body_b].is_awake();
+        if (a_moves != b_moves) {
+            strain_of(a_moves ? d.body_a : d.body_b).is_held = true;
+            any = true;
+        }
+    }
+    return any;
 }
 
-bool RigidSubstep::are_struck(const Contact& shared) const {
-    return scene_.struck_figures[scene_.figures[shared.key.body_a]] != 0 &&
-           scene_.struck_figures[scene_.figures[shared.key.other]] != 0;
+// Of those that are held: by more than an eighth of a degree.
+void RigidSubstep::mark_exceeded_limits() {
+    constexpr std::int64_t far = (std::int64_t{1} << world_fraction_bits) / 458;
+    if (!mark_held()) {
+        return;
+    }
+    in_figures([this](const FigureRange& figure) {
+        FigureStrain& strain = scene_.strained_figures[figure_of(scene_.figure_parts[figure.begin()])];
+        if (strain.is_held) {
+            for_each_joint(figure, [&](const Joint& joint, const Body& a, const Body& b) {
+                strain.is_strained = strain.is_strained || exceeded_limits(joint, a, b) > far;
+            });
+        }
+    });
+}
+
+// False: no figure is.
+bool RigidSubstep::find_strained() {
+    Array<FigureStrain>& strained = scene_.strained_figures;
+    strained.clear();
+    mark_hard_impacts();
+    mark_exceeded_limits();
+    return std::any_of(strained.begin(), strained.end(),
+                       [](const FigureStrain& strain) { return strain.is_strained; });
+}
+
+bool RigidSubstep::is_strained(const FigureRange& figure) const {
+    return scene_.strained_figures[figure_of(scene_.figure_parts[figure.begin()])].is_strained;
+}
+
+bool RigidSubstep::are_strained(const Contact& shared) const {
+    return scene_.strained_figures[scene_.figures[shared.key.body_a]].is_strained &&
+           scene_.strained_figures[scene_.figures[shared.key.other]].is_strained;
 }
 
 // A hand that a wall has stopped is drawn on by the arm and the chest behind it: its contact knows its own
-// mass only, and at 60 m/s it would be 8 cm in the wall before all of them have stopped. Where that happens
-// the figure, and nobody else, has some iterations more.
-void RigidSubstep::stop_hard_impacts() {
+// mass only, and at 60 m/s it would be 8 cm in the wall before all of them have stopped. And limits know the
+// masses of their two bones: those of a hand that all of a figure hangs on would find too little in one
+// iteration, be exceeded, and in the end throw the figure about. Where that happens the figure, and nobody
+// else, has some iterations more.
+void RigidSubstep::relieve_strained() {
     constexpr int most_rounds = 16;
-    for (int round = 0; round < most_rounds && find_hard_impacts(); ++round) {
-        in_struck([this](const FigureRange& figure, const FigureBundle& bundle, std::uint32_t number) {
+    for (int round = 0; round < most_rounds && find_strained(); ++round) {
+        in_strained([this](const FigureRange& figure, const FigureBundle& bundle, std::uint32_t number) {
             if (bundle.is_wide()) {
                 hand_out_factors(scene_, bundle, number);
             }
@@ -347,17 +394,17 @@ void RigidSubstep::stop_hard_impacts() {
         });
         const Array<std::uint32_t>& shared = scene_.shared_contacts;
         for (const std::uint32_t i : shared) {
-            if (are_struck(scene_.contacts[i])) {
+            if (are_strained(scene_.contacts[i])) {
                 measure_contact(i);
                 project_contact(i, false);
             }
         }
         for (std::size_t k = shared.size(); k-- > 0;) {
-            if (are_struck(scene_.contacts[shared[k]])) {
+            if (are_strained(scene_.contacts[shared[k]])) {
                 project_contact(shared[k], true);
             }
         }
-        in_struck([this](const FigureRange& figure, const FigureBundle&, std::uint32_t) {
+        in_strained([this](const FigureRange& figure, const FigureBundle&, std::uint32_t) {
             project_back(figure);
             solve_trees(figure);
         });

@@ -33,7 +33,7 @@ private:
     template <typename Use>
     void in_figures(const Use& use);
     template <typename Use>
-    void in_struck(const Use& use);
+    void in_strained(const Use& use);
     template <typename Use>
     void for_each_joint(const FigureRange& figure, const Use& use);
     void in_trees(const FigureBundle& bundle, void (*wide)(RigidScene&, const FigureBundle&),
@@ -54,10 +54,14 @@ private:
     void project_contacts(const FigureRange& figure);
     void project_back(const FigureRange& figure);
     void iterate(std::uint32_t substep);
-    bool find_hard_impacts();
-    bool is_struck(const FigureRange& figure) const;
-    bool are_struck(const Contact& shared) const;
-    void stop_hard_impacts();
+    FigureStrain& strain_of(std::uint32_t body);
+    void mark_hard_impacts();
+    bool mark_held();
+    void mark_exceeded_limits();
+    bool find_strained();
+    bool is_strained(const FigureRange& figure) const;
+    bool are_strained(const Contact& shared) const;
+    void relieve_strained();
     void project_attachments();
     void collide_objects(std::uint32_t substep);
     void finish();
