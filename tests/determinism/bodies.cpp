@@ -180,6 +180,19 @@ private:
     lks_joint_id motor_joint_{};
 };
 
+// With lanes, and several workers, as with plain integers: hashes_of(workers, simd).
+template <typename HashesOf>
+void check_lanes(const HashesOf& hashes_of) {
+    const std::vector<std::uint64_t> expected = hashes_of(1, LKS_SIMD_SCALAR);
+    for (const lks_simd simd : {LKS_SIMD_AVX2, LKS_SIMD_AVX512}) {
+        if (lks_simd_is_available(simd) != 0) {
+            INFO(std::string(lks_simd_name(simd)));
+            CHECK(hashes_of(1, simd) == expected);
+            CHECK(hashes_of(3, simd) == expected);
+        }
+    }
+}
+
 } // namespace
 
 TEST_CASE("bodies saved in the middle of a pile go on with the same bits, in a fresh and in a dirty world") {
@@ -295,14 +308,7 @@ TEST_CASE("a crowd whose trees are solved side by side has the bits of plain int
         }
         return hashes;
     };
-    const std::vector<std::uint64_t> expected = hashes_of(1, LKS_SIMD_SCALAR);
-    for (const lks_simd simd : {LKS_SIMD_AVX2, LKS_SIMD_AVX512}) {
-        if (lks_simd_is_available(simd) != 0) {
-            INFO(std::string(lks_simd_name(simd)));
-            CHECK(hashes_of(1, simd) == expected);
-            CHECK(hashes_of(3, simd) == expected);
-        }
-    }
+    check_lanes(hashes_of);
 }
 
 TEST_CASE("figures that are thrown at a wall, some of them ahead, have the bits of plain integers") {
@@ -326,14 +332,38 @@ TEST_CASE("figures that are thrown at a wall, some of them ahead, have the bits 
         }
         return hashes;
     };
-    const std::vector<std::uint64_t> expected = hashes_of(1, LKS_SIMD_SCALAR);
-    for (const lks_simd simd : {LKS_SIMD_AVX2, LKS_SIMD_AVX512}) {
-        if (lks_simd_is_available(simd) != 0) {
-            INFO(std::string(lks_simd_name(simd)));
-            CHECK(hashes_of(1, simd) == expected);
-            CHECK(hashes_of(3, simd) == expected);
+    check_lanes(hashes_of);
+}
+
+TEST_CASE("figures that are held by a hand, one of them led about, have the bits of plain integers") {
+    const auto hashes_of = [](std::uint32_t workers, lks_simd simd) {
+        lks_world_def def = world_def(60, 8);
+        def.worker_count = workers;
+        def.simd = static_cast<std::uint32_t>(simd);
+        World world(def);
+        lks_body_id anchors[9];
+        for (int i = 0; i < 9; ++i) {
+            Humanoid humanoid;
+            humanoid.def.transform = {fixed(0, 0, 4 * i), about(0, 1, 0, 20 * i)};
+            lks_body_id bodies[LKS_HUMANOID_BONES];
+            REQUIRE(humanoid.add(world, bodies) == LKS_OK);
+            const lks_body_id hand = bodies[i % 2 == 0 ? LKS_HUMANOID_HAND_LEFT : LKS_HUMANOID_HAND_RIGHT];
+            const Vector place = state_of(world, hand).position;
+            anchors[i] = add_anchor(world, fixed(place.x, place.y, place.z));
+            add_joint(world, lks_default_joint_def(), anchors[i], hand);
         }
-    }
+        std::vector<std::uint64_t> hashes;
+        for (int i = 0; i < 60; ++i) {
+            lks_transform to{};
+            REQUIRE(lks_body_transform(world, anchors[4], &to) == LKS_OK);
+            to.position.x += fixed(0.05);
+            REQUIRE(lks_body_move_to(world, anchors[4], to) == LKS_OK);
+            world.step();
+            hashes.push_back(world.hash());
+        }
+        return hashes;
+    };
+    check_lanes(hashes_of);
 }
 
 TEST_CASE("a pile saved as it lands goes on for 600 ticks with other workers and instructions") {
