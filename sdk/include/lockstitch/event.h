@@ -16,21 +16,29 @@ extern "C" {
 #endif
 
 typedef enum lks_event_kind {
-    LKS_EVENT_CONTACT_BEGIN = 0, /* they touched in this tick, and not at the end of the one before */
-    LKS_EVENT_CONTACT_END = 1,   /* they no longer do; what is removed ends without an event */
-    LKS_EVENT_JOINT_BROKE = 2,   /* its id is stale now */
+    /* They touched in this tick, and not at the end of the one before. Every touch begins and ends, however
+     * soft it is; what is removed ends without an event. */
+    LKS_EVENT_CONTACT_BEGIN = 0,
+    LKS_EVENT_CONTACT_END = 1,
+    LKS_EVENT_JOINT_BROKE = 2, /* its id is stale now */
     LKS_EVENT_ATTACHMENT_BROKE = 3,
     LKS_EVENT_FELL_ASLEEP = 4,
     LKS_EVENT_WOKE = 5,
     /* The particles of an object pushed a body in this tick, or were held back by it, with least_impulse or
      * more: one event an object, body and tick for as long as that goes on. What lies on a body at rest
      * pushes with its weight times a tick. */
-    LKS_EVENT_PARTICLES_PUSHED = 6
+    LKS_EVENT_PARTICLES_PUSHED = 6,
+    /* A contact's impulse in a tick reached least_impulse, and had not in the tick before: something fell on
+     * it, was thrown at what it lies on already, or leant on it more and more. Each impact is told once,
+     * whole, even where it begins in the last substep of one tick and goes on in the next. What pushes with
+     * least_impulse a tick all the time (lies there with that weight times a tick) is told when it begins to,
+     * and no more while it does, not even when something strikes it: choose a threshold above the weights. */
+    LKS_EVENT_CONTACT_HIT = 7
 } lks_event_kind;
 
 /* For lks_world_record_events: one bit a kind. */
 #define LKS_EVENT_BIT(kind) (1u << (kind))
-#define LKS_ALL_EVENTS 0x7fu
+#define LKS_ALL_EVENTS 0xffu
 #define LKS_MAX_EVENTS 1048576u
 
 typedef struct lks_event {
@@ -43,14 +51,16 @@ typedef struct lks_event {
     lks_joint_id joint;       /* that broke */
     lks_attachment_id attachment;
     lks_object_id object; /* whose particles pushed body_a; generation 0: none */
-    lks_fixed strength;   /* a contact's impulse in this tick along its normals, N·s; of particles the sum of
-                             the sizes of theirs, with friction; what broke a joint or an attachment, N or
-                             N·m; saturates at 8,388,607 */
+    lks_fixed strength; /* a contact's impulse along its normals, N·s: of this tick, and, where an impact has
+                           begun in it, what it takes to stop the two if nobody else touched them; of
+                           particles the sum of the sizes of theirs, with friction; what broke a joint or an
+                           attachment, N or N·m; saturates at 8,388,607 */
 } lks_event;
 
-/* From now on. `kinds` is made of LKS_EVENT_BITs, 0: none. Contacts that begin with less than `least_impulse`
- * (N·s, 0 .. 8000000) are left out, and so are particles that push with less. At most `capacity` (1 ..
- * LKS_MAX_EVENTS) are kept of a call that runs ticks; the rest is counted (lost_events). */
+/* From now on. `kinds` is made of LKS_EVENT_BITs, 0: none. `least_impulse` (N·s, 0 .. 8000000) is the
+ * threshold of LKS_EVENT_CONTACT_HIT and of LKS_EVENT_PARTICLES_PUSHED; with 0 every contact that begins is a
+ * hit. At most `capacity` (1 .. LKS_MAX_EVENTS) are kept of a call that runs ticks; the rest is counted
+ * (lost_events). */
 LKS_API lks_result lks_world_record_events(lks_world* world, uint32_t kinds, lks_fixed least_impulse,
                                            uint32_t capacity);
 /* Of the ticks that the last lks_world_step or lks_world_advance ran. Valid until the next one, until a load,

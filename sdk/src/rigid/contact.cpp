@@ -206,7 +206,7 @@ void add_up_pushes(Contact& contact, const MotionRate& rate) {
     }
 }
 
-void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t least_approach) {
+void restore_speed(Contact& contact, ContactBodies bodies, std::int64_t least_approach) {
     if (contact.restitution == 0) {
         return;
     }
@@ -219,9 +219,36 @@ void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t le
             fixed::multiply_shift(point.approach, contact.restitution, world_fraction_bits);
         const std::int64_t missing = wanted + closing_speed(contact, point, bodies);
         if (missing > 0) {
-            accelerate(contact, point.rows, divide(missing, point.rows.inverses[normal_row]), bodies);
+            const std::int64_t p = divide(missing, point.rows.inverses[normal_row]);
+            contact.given_speed = fixed::saturating_add(contact.given_speed, p);
+            accelerate(contact, point.rows, p, bodies);
         }
     }
+}
+
+std::int64_t speed_to_come(const Contact& contact, const ContactBodies& bodies) {
+    Vec3 a{0, 0, 0};
+    Vec3 b{0, 0, 0};
+    const ContactRows* rows = &contact.middle;
+    std::int64_t count = 0;
+    bool pushes = false;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        const ContactPoint& point = contact.points[i];
+        if (point.active) {
+            const Levers levers = surfaces_of(contact, cores_now(point, bodies.a, bodies.b));
+            a = a + levers.a;
+            b = b + levers.b;
+            rows = count == 0 ? &point.rows : &contact.middle;
+            pushes = pushes || point.push.normal != 0;
+            ++count;
+        }
+    }
+    if (!pushes) {
+        return 0;
+    }
+    const auto share = [count](const Vec3& v) { return Vec3{v.x / count, v.y / count, v.z / count}; };
+    const std::int64_t closing = closing_speed(contact, {share(a), share(b)}, bodies.a, bodies.b);
+    return closing > 0 ? divide(closing, rows->inverses[normal_row]) : 0;
 }
 
 void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate& rate) {

@@ -158,7 +158,9 @@ bool closes(const Contact& contact, const ContactBodies& bodies, std::int64_t di
 // For events: what it pushed in this substep.
 void add_up_pushes(Contact& contact, const MotionRate& rate);
 // Once velocities are known.
-void restore_speed(const Contact& contact, ContactBodies bodies, std::int64_t least_approach);
+void restore_speed(Contact& contact, ContactBodies bodies, std::int64_t least_approach);
+// For events, World m/s: what it has yet to give where it pushes and they still close, as if nobody else did.
+std::int64_t speed_to_come(const Contact& contact, const ContactBodies& bodies);
 // Last: overlaps that do not part by a motion, by moving bodies without giving them speed.
 void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate& rate);
 // Whether any of its points overlaps by more than this.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rigid/contact_search.h"
 #include "rigid/coupling.h"
 #include "rigid/make_body.h"
 
@@ -56,24 +57,43 @@ Pair pair_of(const ContactKey& key) {
     return {key.body_a, key.other};
 }
 
+// What the contacts of a pair did in a tick, World m/s: added up, and what they have yet to give.
+struct PairPushes {
+    std::int64_t given = 0;
+    std::int64_t to_come = 0;
+};
+// What is remembered of a pair at the end of a tick.
+struct PairMemory {
+    bool touches = false;
+    std::int64_t last = 0; // World m/s: what it gave in the last substep
+};
+
 // The contacts of this tick, those that pushed at the end of the one before, and those that push now, pair by
 // pair: all three in ascending order.
+//
+// What is told must follow from the state alone, and that holds no more of the tick before than what its last
+// substep pushed. So a hit is a tick that reaches the threshold where the one before, had all its substeps
+// been like the last, was below it. An impact takes a substep to come down on what is still open, and one to
+// be stopped. Where a tick ends between the two it is told at once, with what is to come, if the next tick
+// will count as one that was at the threshold already; else then, with what was given before.
 class ContactChanges {
 public:
     explicit ContactChanges(lks_world& world) : world_(world), scene_(world.rigid) {}
 
     void record() {
         for (Pair pair = next_pair(); !(pair == no_pair); pair = next_pair()) {
-            const std::int64_t speed = take_contacts(pair);
-            const bool before = take(scene_.memories, old_, pair);
-            const bool now = take(scene_.next_memories, new_, pair);
-            const bool begins = !before && (speed != 0 || now);
-            const std::int64_t impulse = begins ? impulse_of(pair, speed) : 0;
-            const bool loud = impulse >= world_.event_log.least_impulse;
-            if (begins && loud) {
-                report(pair, LKS_EVENT_CONTACT_BEGIN, impulse);
+            const PairPushes pushes = take_contacts(pair);
+            const PairMemory before = take(scene_.memories, old_, pair);
+            const PairMemory now = take(scene_.next_memories, new_, pair);
+            const bool begins = !before.touches && (pushes.given != 0 || now.touches);
+            if (begins) {
+                const std::int64_t whole = fixed::saturating_add(pushes.given, pushes.to_come);
+                report(pair, LKS_EVENT_CONTACT_BEGIN, impulse_of(pair, whole));
             }
-            if (!now && (before || (begins && loud))) {
+            if (begins || before.touches) {
+                tell_hit(pair, pushes, before, now);
+            }
+            if (!now.touches && (before.touches || begins)) {
                 report(pair, LKS_EVENT_CONTACT_END, 0);
             }
         }
@@ -94,22 +114,54 @@ private:
         return least;
     }
 
-    // How much speed its contacts gave in this tick, added up.
-    std::int64_t take_contacts(const Pair& pair) {
-        std::int64_t sum = 0;
-        for (; contact_ < scene_.contacts.size() && pair_of(scene_.contacts[contact_].key) == pair;
-             ++contact_) {
-            sum = fixed::saturating_add(sum, scene_.contacts[contact_].given_speed);
+    void tell_hit(const Pair& pair, const PairPushes& pushes, const PairMemory& before,
+                  const PairMemory& now) {
+        const std::int64_t least = world_.event_log.least_impulse;
+        if (before.touches && impulse_of(pair, of_tick(before)) >= least) {
+            return;
         }
-        return sum;
+        std::int64_t speed = pushes.given;
+        if (before.last > now.last) {
+            speed = fixed::saturating_add(speed, before.last - now.last);
+        }
+        if (impulse_of(pair, of_tick(now)) >= least) {
+            speed = fixed::saturating_add(speed, pushes.to_come);
+        }
+        const std::int64_t impulse = impulse_of(pair, speed);
+        if (impulse >= least) {
+            report(pair, LKS_EVENT_CONTACT_HIT, impulse);
+        }
     }
 
-    static bool take(const Array<ContactMemory>& memories, std::size_t& at, const Pair& pair) {
-        const std::size_t first = at;
-        while (at < memories.size() && pair_of(memories[at].key) == pair) {
-            ++at;
+    // As if it had pushed all the time as in its last substep.
+    std::int64_t of_tick(const PairMemory& memory) const {
+        return fixed::multiply_shift(memory.last, world_.rate.substeps, 0);
+    }
+
+    PairPushes take_contacts(const Pair& pair) {
+        PairPushes pushes;
+        for (; contact_ < scene_.contacts.size() && pair_of(scene_.contacts[contact_].key) == pair;
+             ++contact_) {
+            const Contact& contact = scene_.contacts[contact_];
+            const ContactBodies bodies{scene_.bodies[pair.body_a], other_body(scene_, pair.other)};
+            pushes.given = fixed::saturating_add(pushes.given, contact.given_speed);
+            pushes.to_come = std::max(pushes.to_come, speed_to_come(contact, bodies));
         }
-        return at != first;
+        return pushes;
+    }
+
+    PairMemory take(const Array<ContactMemory>& memories, std::size_t& at, const Pair& pair) const {
+        const auto substeps_per_second = static_cast<std::int64_t>(world_.rate.substeps_per_second);
+        PairMemory of_pair;
+        for (; at < memories.size() && pair_of(memories[at].key) == pair; ++at) {
+            of_pair.touches = true;
+            for (std::uint32_t i = 0; i < memories[at].count; ++i) {
+                const std::int64_t push = memories[at].pushes[i].normal;
+                of_pair.last =
+                    fixed::saturating_add(of_pair.last, fixed::multiply_shift(push, substeps_per_second, 0));
+            }
+        }
+        return of_pair;
     }
 
     // World N·s. Speeds count in the greater inverse mass of the two.
@@ -141,7 +193,7 @@ private:
     }
 
     lks_world& world_;
-    const RigidScene& scene_;
+    RigidScene& scene_;
     std::size_t contact_ = 0;
     std::size_t old_ = 0;
     std::size_t new_ = 0;

@@ -15,7 +15,9 @@ struct EventLog {
 
     bool wants(lks_event_kind kind) const { return (kinds & LKS_EVENT_BIT(kind)) != 0; }
     bool wants_particles() const { return wants(LKS_EVENT_PARTICLES_PUSHED); }
-    bool wants_contacts() const { return wants(LKS_EVENT_CONTACT_BEGIN) || wants(LKS_EVENT_CONTACT_END); }
+    bool wants_contacts() const {
+        return wants(LKS_EVENT_CONTACT_BEGIN) || wants(LKS_EVENT_CONTACT_END) || wants(LKS_EVENT_CONTACT_HIT);
+    }
 
     std::uint32_t kinds = 0;
     std::int64_t least_impulse = 0; // World, N·s

@@ -449,7 +449,7 @@ void RigidSubstep::finish() {
         in_contacts([this](Contact& contact) { add_up_pushes(contact, rate_); });
     }
     if (any_restitution_) {
-        for (const Contact& contact : scene_.contacts) {
+        for (Contact& contact : scene_.contacts) {
             restore_speed(contact, bodies_of(contact), least_approach_);
         }
     }
