@@ -80,11 +80,39 @@ TEST_CASE("integers and World values are printed in full and a sentence is cut a
     CHECK(world_text(LKS_FIXED(3) / 2) == "1.5");
     CHECK(world_text(-LKS_FIXED_ONE / 8) == "-0.125");
     CHECK(world_text(LKS_FIXED_ONE / 64) == "0.015625");
+    CHECK(world_text(LKS_FIXED_RATIO(1, 1000)) == "0.001"); // it is a little less
+    CHECK(world_text(LKS_FIXED_RATIO(-1, 1000)) == "-0.001");
+    CHECK(world_text(LKS_FIXED_RATIO(2, 3)) == "0.666666666666");
+    CHECK(world_text(LKS_FIXED_RATIO(999999, 1000000) + 1) == "0.999999");
+    // What is just beyond a limit is not printed as the limit.
+    CHECK(world_text(-1) == "-0.000000000001");
+    CHECK(world_text(LKS_FIXED(2) + 2) == "2.000000000002");
+    CHECK(world_text(LKS_FIXED(2) - 2) == "1.999999999998");
+    CHECK(world_text(INT64_MIN) == "-8388608");
+    CHECK(world_text(INT64_MAX) == "8388608");
     Sentence longer;
     for (int i = 0; i < 100; ++i) {
         longer << "twelve chars";
     }
     CHECK(std::strlen(longer.text()) == LKS_MESSAGE_CAPACITY - 1);
+}
+
+TEST_CASE("a printed World value read back is the one that was printed, to a unit") {
+    support::Random random(11);
+    int wrong = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const std::int64_t value = random.between(-1, 1) * random.between(0, std::int64_t{1} << (i % 52));
+        const std::string printed = world_text(value);
+        const double back = std::ldexp(std::strtod(printed.c_str(), nullptr), 40);
+        wrong += std::fabs(back - static_cast<double>(value)) <= 1.5 ? 0 : 1;
+        // Six digits come back as they were written.
+        const std::int64_t millionths = random.between(-99999999, 99999999);
+        const auto nearest = static_cast<std::int64_t>(std::round(std::ldexp(millionths * 1e-6, 40)));
+        const std::string six = world_text(nearest);
+        const bool is_short = six.find('.') == std::string::npos || six.size() - six.find('.') <= 7;
+        wrong += is_short && std::fabs(std::strtod(six.c_str(), nullptr) - millionths * 1e-6) < 1e-12 ? 0 : 1;
+    }
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("a successful call leaves LKS_OK and an empty sentence") {

@@ -39,13 +39,13 @@ typedef enum lks_result {
     LKS_ERROR_NULL_ARGUMENT = 1,    /* a pointer that must not be null is */
     LKS_ERROR_INVALID_ARGUMENT = 2, /* a value is out of its documented range; the message names it */
     LKS_ERROR_STRUCT_SIZE = 3,      /* a definition was not made by its lks_default_*_def() */
-    LKS_ERROR_STALE_ID = 4,         /* the object or collider was removed, or never existed */
+    LKS_ERROR_STALE_ID = 4,         /* what the id names was removed, or never existed */
     LKS_ERROR_OUT_OF_MEMORY = 5,    /* the allocator returned null */
     LKS_ERROR_BUFFER_TOO_SMALL = 6, /* the message names the size that is needed */
     LKS_ERROR_MISALIGNED = 7,       /* a buffer does not have the documented alignment */
     LKS_ERROR_CORRUPT_IMAGE = 8,    /* truncated, or its checksum or a value in it is wrong */
     LKS_ERROR_FOREIGN_IMAGE = 9,    /* another version, other world settings, or an unknown asset */
-    LKS_ERROR_LIMIT = 10,           /* a documented limit (objects, vertices, colliders) is reached */
+    LKS_ERROR_LIMIT = 10,           /* a documented limit (how many objects, bodies, bones ...) is reached */
     LKS_ERROR_UNSUPPORTED = 11      /* the object has not got what was asked for; the message says what */
 } lks_result;
 

@@ -1,7 +1,8 @@
 /* Lockstitch: the state as a value: hash, save, load.
  *
  * The state is everything that can influence the future: tick, gravity, every object with its asset's
- * fingerprint, every collider, every id's generation. An image of it is one block of bytes, little-endian on
+ * fingerprint, every collider, body, joint and attachment, what contacts of bodies pushed last, every id's
+ * generation. An image of it is one block of bytes, little-endian on
  * every machine, the same bytes for the same state. It is versioned and has a checksum.
  */
 #ifndef LOCKSTITCH_STATE_H
@@ -16,8 +17,9 @@ extern "C" {
 /* A hash (XXH3, 64 bits) over the whole state; equal states have equal hashes on every machine. 0 for null.
  */
 LKS_API uint64_t lks_world_hash(const lks_world* world);
-/* The same without the origins of objects and the places of colliders in the world: does not change when
- * everything is moved by the same whole unit. */
+/* The same without the origins of objects and the places of colliders and bodies in the world: does not
+ * change when everything is moved by the same whole unit, with the targets of pins and of what is kinematic.
+ */
 LKS_API uint64_t lks_world_local_hash(const lks_world* world);
 /* Over one object, without its origin and id. 0 for a stale id. */
 LKS_API uint64_t lks_object_hash(const lks_world* world, lks_object_id object);

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "fixed/formats.h"
+#include "fixed/integer.h"
 
 namespace lks {
 
@@ -48,21 +49,33 @@ Sentence& Sentence::hexadecimal(std::uint64_t value) {
 }
 
 Sentence& Sentence::world_value(std::int64_t value) {
-    const std::uint64_t magnitude =
-        value < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
     constexpr std::uint64_t one = std::uint64_t{1} << world_fraction_bits;
     constexpr std::uint64_t million = 1000000;
-    // Six digits, rounded down: the fraction has 40 bits, and a million 20.
-    std::uint64_t fraction = (magnitude % one) * million / one;
+    std::uint64_t whole = fixed::magnitude(value) / one;
+    const std::uint64_t part = fixed::magnitude(value) % one;
+    // The fraction has 40 bits, and a million 20.
+    std::uint64_t fraction = (part * million + one / 2) / one;
+    std::uint64_t power = million;
+    const std::uint64_t back = fraction * one / million;
+    const bool short_number = part == 0 || (fraction != 0 && back <= part + 1 && part <= back + 1);
+    if (!short_number) {
+        const std::uint64_t rest = part * million % one;
+        fraction = part * million / one * million + (rest * million + one / 2) / one;
+        power = million * million;
+    }
+    if (fraction == power) {
+        ++whole;
+        fraction = 0;
+    }
     if (value < 0) {
         append('-');
     }
-    *this << magnitude / one;
+    *this << whole;
     if (fraction == 0) {
         return *this;
     }
     append('.');
-    for (std::uint64_t power = million / 10; fraction != 0; power /= 10) {
+    for (power /= 10; fraction != 0; power /= 10) {
         *this << fraction / power;
         fraction %= power;
     }

@@ -16,7 +16,8 @@ public:
     Sentence& operator<<(std::int32_t value) { return *this << static_cast<std::int64_t>(value); }
     Sentence& operator<<(std::uint32_t value) { return *this << static_cast<std::uint64_t>(value); }
     Sentence& hexadecimal(std::uint64_t value);
-    // A World-format value as a decimal number with up to six digits behind the point.
+    // A World-format value as a decimal number, to the nearest: with up to six digits behind the point where
+    // it is such a number to the last bit, else with up to twelve, which tell any two values apart.
     Sentence& world_value(std::int64_t value);
 
     const char* text() const { return text_; }
