@@ -60,6 +60,70 @@ TEST_CASE("a free body keeps its angular momentum and gains no energy in ten min
     }
 }
 
+TEST_CASE("a T of two capsules turns over and over for ten minutes, with its momentum, and gains no energy") {
+    constexpr double radius = 0.03;
+    constexpr double density = 1000;
+    const double bar = 0.15;  // half lengths; the bar along x, on top of the stem
+    const double stem = 0.12; // along y
+    lks_body_shape shapes[] = {capsule_shape(radius, bar, density), capsule_shape(radius, stem, density)};
+    shapes[0].transform.rotation = about(0, 0, 1, 90);
+    shapes[1].transform.position = fixed(0, -stem - radius, 0);
+    // Mass, and the moments of inertia along a capsule's axis and across it.
+    const auto capsule = [](double half) {
+        const double pi = std::acos(-1.0);
+        const double tube = density * pi * radius * radius * 2 * half;
+        const double ball = density * pi * radius * radius * radius * 4 / 3;
+        const double across = tube * (radius * radius / 4 + half * half / 3) +
+                              ball * (0.4 * radius * radius + half * half + 0.75 * half * radius);
+        return Vector{tube + ball, tube * radius * radius / 2 + ball * 0.4 * radius * radius, across};
+    };
+    const Vector b = capsule(bar);
+    const Vector s = capsule(stem);
+    const double apart = stem + radius;
+    const double steiner = b.x * s.x / (b.x + s.x) * apart * apart;
+    const Vector inertia{b.y + s.z + steiner, b.z + s.y, b.z + s.z + steiner};
+    const auto angular_momentum = [&](const BodyState& state) {
+        const lks_rotation& q = state.rotation;
+        const Vector w = rotate({-q.x, -q.y, -q.z, q.w}, state.spin);
+        return rotate(q, {w.x * inertia.x, w.y * inertia.y, w.z * inertia.z});
+    };
+    REQUIRE(inertia.y < inertia.x); // so that it turns over about x
+    REQUIRE(inertia.x < inertia.z);
+    for (const Vector& spin : {Vector{5, 0.01, 0.02}, Vector{0.02, 5, 0.01}, Vector{0.4, 0.2, 3}}) {
+        World world(world_def(60, 8));
+        REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
+        lks_body_def def = lks_default_body_def();
+        def.shapes = shapes;
+        def.shape_count = 2;
+        def.angular_velocity = fixed(spin.x, spin.y, spin.z);
+        lks_body_id body{};
+        REQUIRE(lks_world_add_body(world, &def, &body) == LKS_OK);
+        const double energy = energy_of(world);
+        const Vector start = angular_momentum(state_of(world, body));
+        CHECK(std::abs(start.dot(spin) / 2 / energy - 1) < 1e-6); // the moments are the body's
+        double greatest = 0;
+        double drift = 0;
+        int turns = 0;
+        bool over = false;
+        for (int i = 0; i < 6000; ++i) {
+            world.step(6);
+            const BodyState state = state_of(world, body);
+            greatest = std::max(greatest, energy_of(world));
+            drift = std::max(drift, (angular_momentum(state) - start).length() / start.length());
+            const lks_rotation& q = state.rotation;
+            const bool is_over = rotate({-q.x, -q.y, -q.z, q.w}, start).dot(start) < 0;
+            turns += is_over != over ? 1 : 0;
+            over = is_over;
+        }
+        INFO("energy, greatest over start: " << greatest / energy << ", now " << energy_of(world) / energy
+                                             << "; momentum's drift " << drift << "; turned over " << turns);
+        CHECK(greatest <= energy * (1 + 1e-9));
+        CHECK(energy_of(world) > energy * 0.999);
+        CHECK(drift < 1e-3);
+        CHECK((spin.x == 5 ? turns > 50 : spin.y != 5 || turns == 0));
+    }
+}
+
 TEST_CASE("a ball bounces to the height that its restitution gives it") {
     for (const auto& [restitution, substeps] :
          {std::pair{0.0, 20u}, {0.3, 20u}, {0.5, 20u}, {0.9, 20u}, {0.3, 8u}, {0.5, 8u}, {0.9, 8u}}) {
