@@ -46,6 +46,42 @@ constexpr Rate rates[] = {{10, 1, 6e4},  {10, 10, 1e3}, {10, 100, 30},    {30, 1
                           {60, 5, 200},  {60, 20, 20},  {60, 100, 2},     {240, 1, 300}, {240, 20, 4},
                           {1000, 1, 25}, {1000, 10, 1}, {1000, 100, 0.25}};
 
+// Two metres, solved at once, pinned at one end and let go when level. In a substep of 0.1 s it falls by two
+// segments of 40, and by five of 99.
+void let_go(std::uint32_t segments, double end, const Rate& rate) {
+    Chain chain;
+    chain.segments = segments;
+    chain.particle_mass = 0.01;
+    chain.end_mass = 0.01 * end;
+    const Asset asset = chain.build();
+    Subject subject = subject_of(chain, asset);
+    subject.masses = chain.masses();
+    subject.world = world_def(rate.hz, rate.substeps);
+    Trial trial(subject);
+    trial.pin(0);
+    const double seconds = rate.hz * rate.substeps > 20000 && !long_runs() ? 0.5 : 5;
+    trial.run(static_cast<int>(seconds * rate.hz));
+    const std::string heavy = end > 1 ? named(", 1:", end, " at the end") : "";
+    const std::string name = named("rope of ", segments, heavy, ", ", rate.hz, " Hz × ", rate.substeps);
+    expect_stretch_at_most(name, trial, rate.stretch);
+    if (rate.stretch > 5) {
+        expect_recovery_within(name, trial, 5);
+    }
+    expect_gain_at_most(name, trial, 1);
+    expect_nothing_clamped(trial);
+}
+
+constexpr Rate light_rope[] = {{10, 1, 0.1},     {10, 10, 0.06},   {10, 100, 7e-4},   {20, 1, 0.12},
+                               {30, 1, 0.12},    {60, 1, 0.12},    {60, 5, 0.2},      {60, 20, 0.05},
+                               {60, 100, 3e-4},  {240, 1, 0.18},   {240, 20, 1.5e-3}, {1000, 1, 0.1},
+                               {1000, 10, 3e-4}, {1000, 100, 3e-7}};
+constexpr Rate heavy_rope[] = {{10, 1, 0.12},    {10, 10, 0.15},   {10, 100, 5e-5},   {20, 1, 0.12},
+                               {30, 1, 0.1},     {60, 1, 0.06},    {60, 5, 1.6e-3},   {60, 20, 4e-5},
+                               {60, 100, 3e-4},  {240, 1, 2.5e-3}, {240, 20, 1.5e-3}, {1000, 1, 4e-4},
+                               {1000, 10, 3e-4}, {1000, 100, 3e-7}};
+constexpr Rate fine_rope[] = {{10, 1, 0.08}, {10, 2, 0.1}, {10, 10, 0.04}, {20, 1, 0.5}, {60, 1, 0.13}};
+constexpr Rate fine_heavy_rope[] = {{10, 1, 330}, {10, 2, 85}, {10, 10, 5e-3}, {20, 1, 85}, {60, 1, 0.13}};
+
 struct BodyRate {
     std::uint32_t hz, substeps;
     double gap; // millimetres
@@ -90,6 +126,21 @@ TEST_CASE("a cloth hangs at any tick rate and any number of substeps, with and w
     for (const Rate& rate : rates) {
         hang(rate, false);
         hang(rate, true);
+    }
+}
+
+TEST_CASE("a rope that is solved at once hangs at any tick rate and any number of substeps") {
+    for (const Rate& rate : light_rope) {
+        let_go(40, 1, rate);
+    }
+    for (const Rate& rate : heavy_rope) {
+        let_go(40, 100, rate);
+    }
+    for (const Rate& rate : fine_rope) {
+        let_go(99, 1, rate);
+    }
+    for (const Rate& rate : fine_heavy_rope) {
+        let_go(99, 1e4, rate);
     }
 }
 

@@ -39,7 +39,8 @@
 //
 // Both hold while segments turn by little. A rope that was blown apart, its segments at all angles and far
 // too long, a solve would blow further, for ever; sweeps are slow but bring it together from anywhere. So a
-// torn rope is swept first, and then solved for changes that are short against its segments.
+// torn rope is swept first, and then solved for changes that are short against its segments; both again
+// until it is whole, or for so many times.
 #pragma once
 
 #include <cstddef>
