@@ -11,6 +11,7 @@ namespace lks_golden {
 namespace {
 
 constexpr const char* title = "lockstitch golden state";
+constexpr std::size_t digests_a_line = 15; // the bones of a mannequin
 
 class Parser {
 public:
@@ -56,6 +57,9 @@ private:
         if (word == "point") {
             return parse_point(words);
         }
+        if (word == "body") {
+            return parse_body(words);
+        }
         const std::size_t space = line.find(' ');
         if (space == std::string::npos || !state_.ticks.empty()) {
             return false;
@@ -81,17 +85,61 @@ private:
             return word == "local" && parse_hexadecimal(state, state_.ticks.back().state) &&
                    parse_hexadecimal(local, state_.ticks.back().local);
         }
+        if (kind == "bodies") {
+            return belongs(tick) && parse_bodies(words);
+        }
         ObjectRecord object;
         std::string hash;
         if (kind != "object" || !(words >> object.index >> object.name >> hash) ||
             !parse_hexadecimal(hash, object.hash)) {
             return false;
         }
+        if (!belongs(tick)) {
+            return false;
+        }
+        state_.ticks.back().objects.push_back(object);
+        return true;
+    }
+
+    bool belongs(std::uint64_t tick) {
         if (state_.ticks.empty() || state_.ticks.back().tick != tick) {
             reason_ = "names another tick than the state above it";
             return false;
         }
-        state_.ticks.back().objects.push_back(object);
+        return true;
+    }
+
+    bool parse_bodies(std::istringstream& words) {
+        std::vector<std::uint32_t>& bodies = state_.ticks.back().bodies;
+        std::size_t first = 0;
+        if (!(words >> first) || first != bodies.size()) {
+            return false;
+        }
+        for (std::string word; words >> word;) {
+            std::uint64_t digest = 0;
+            if (word.size() != 8 || !parse_hexadecimal("00000000" + word, digest)) {
+                return false;
+            }
+            bodies.push_back(static_cast<std::uint32_t>(digest));
+        }
+        return bodies.size() > first;
+    }
+
+    bool parse_body(std::istringstream& words) {
+        BodyRecord body;
+        std::size_t index = 0;
+        std::string word;
+        std::string parts[7];
+        if (!(words >> index >> body.name >> word >> parts[0] >> parts[1] >> parts[2]) || word != "metres" ||
+            index != state_.bodies.size()) {
+            return false;
+        }
+        if (!(words >> word >> parts[3] >> parts[4] >> parts[5] >> parts[6]) || word != "rotation") {
+            return false;
+        }
+        body.metres = parts[0] + " " + parts[1] + " " + parts[2];
+        body.rotation = parts[3] + " " + parts[4] + " " + parts[5] + " " + parts[6];
+        state_.bodies.push_back(body);
         return true;
     }
 
@@ -132,6 +180,7 @@ public:
         compare_parameters();
         compare_ticks();
         compare_points();
+        compare_bodies();
         return sentences_;
     }
 
@@ -168,6 +217,7 @@ private:
                 continue;
             }
             compare_objects(tick, *other, name);
+            compare_digests(tick, *other, name);
             if (tick.local != other->local) {
                 add(name + ", the world without its place", hexadecimal(tick.local),
                     hexadecimal(other->local));
@@ -198,6 +248,45 @@ private:
                         (same_object ? std::string()
                                      : " of object " + std::to_string(a.index) + " (" + a.name + ")"));
             }
+        }
+    }
+
+    std::string body_name(std::size_t index) const {
+        const std::string number = "body " + std::to_string(index);
+        return index < expected_.bodies.size() ? number + " (" + expected_.bodies[index].name + ")" : number;
+    }
+
+    void compare_digests(const TickRecord& expected, const TickRecord& actual, const std::string& name) {
+        if (expected.bodies.size() != actual.bodies.size()) {
+            add(name + ", bodies", std::to_string(expected.bodies.size()),
+                std::to_string(actual.bodies.size()));
+            return;
+        }
+        for (std::size_t i = 0; i < expected.bodies.size(); ++i) {
+            if (expected.bodies[i] != actual.bodies[i]) {
+                add(name + ", " + body_name(i), short_hexadecimal(expected.bodies[i]),
+                    short_hexadecimal(actual.bodies[i]));
+            }
+        }
+    }
+
+    void compare_bodies() {
+        for (std::size_t i = 0; i < expected_.bodies.size(); ++i) {
+            const BodyRecord& e = expected_.bodies[i];
+            const std::string name = "last tick, " + body_name(i);
+            const auto text = [](const BodyRecord& body) {
+                return body.metres + " m, rotation " + body.rotation;
+            };
+            if (i >= actual_.bodies.size()) {
+                add(name, text(e), "nothing");
+            } else if (actual_.bodies[i].name != e.name) {
+                add(name, e.name, actual_.bodies[i].name);
+            } else if (text(actual_.bodies[i]) != text(e)) {
+                add(name, text(e), text(actual_.bodies[i]));
+            }
+        }
+        if (expected_.bodies.size() < actual_.bodies.size()) {
+            add("bodies", std::to_string(expected_.bodies.size()), std::to_string(actual_.bodies.size()));
         }
     }
 
@@ -270,11 +359,23 @@ std::string to_text(const GoldenState& state) {
             text << "tick " << tick.tick << " object " << object.index << ' ' << object.name << ' '
                  << hexadecimal(object.hash) << '\n';
         }
+        for (std::size_t i = 0; i < tick.bodies.size(); ++i) {
+            if (i % digests_a_line == 0) {
+                text << "tick " << tick.tick << " bodies " << i;
+            }
+            const bool ends = (i + 1) % digests_a_line == 0 || i + 1 == tick.bodies.size();
+            text << ' ' << short_hexadecimal(tick.bodies[i]) << (ends ? "\n" : "");
+        }
     }
     text << "\n# At the last tick: raw units of 2^-56 m from the object's origin, and metres in the world.\n";
     for (const PointRecord& point : state.points) {
         text << "point " << point.object << ' ' << point.vertex << " raw " << point.raw << " metres "
              << point.metres << '\n';
+    }
+    for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+        const BodyRecord& body = state.bodies[i];
+        text << "body " << i << ' ' << body.name << " metres " << body.metres << " rotation " << body.rotation
+             << '\n';
     }
     return text.str();
 }

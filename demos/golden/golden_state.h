@@ -8,7 +8,7 @@
 
 namespace lks_golden {
 
-inline constexpr std::uint32_t format_version = 1;
+inline constexpr std::uint32_t format_version = 2;
 inline constexpr std::uint32_t ticks_between_records = 10;
 
 struct ObjectRecord {
@@ -22,6 +22,7 @@ struct TickRecord {
     std::uint64_t state = 0;
     std::uint64_t local = 0;
     std::vector<ObjectRecord> objects;
+    std::vector<std::uint32_t> bodies; // a digest of each, in the order in which they were added
 };
 
 // One vertex at the last tick: raw coordinates relative to the object's origin, and metres in the world.
@@ -32,11 +33,19 @@ struct PointRecord {
     std::string metres;
 };
 
+// A body at the last tick: metres in the world, and its rotation in units of 2^-30.
+struct BodyRecord {
+    std::string name;
+    std::string metres;
+    std::string rotation;
+};
+
 struct GoldenState {
     std::string scene;
     std::vector<std::pair<std::string, std::string>> parameters;
     std::vector<TickRecord> ticks;
     std::vector<PointRecord> points;
+    std::vector<BodyRecord> bodies;
 
     const TickRecord* find_tick(std::uint64_t tick) const;
 };
@@ -45,7 +54,8 @@ std::string to_text(const GoldenState& state);
 // False, with a sentence that names the line: not a golden state.
 bool parse(const std::string& text, GoldenState& state, std::string& error);
 
-// One sentence for each difference, naming scene, tick and object; the first `limit` of them. Empty: equal.
+// One sentence for each difference, naming scene, tick and object or body; the first `limit` of them. Empty:
+// equal.
 std::vector<std::string> differences(const GoldenState& expected, const GoldenState& actual,
                                      std::size_t limit = 5);
 

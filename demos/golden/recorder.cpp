@@ -9,6 +9,44 @@ namespace {
 
 constexpr std::uint32_t points_per_object = 5;
 
+// FNV-1a of 64 bits.
+class Digest {
+public:
+    void add(std::uint64_t value) {
+        for (int byte = 0; byte < 8; ++byte) {
+            sum_ = (sum_ ^ (value >> (8 * byte) & 0xff)) * 0x100000001b3u;
+        }
+    }
+    void add(const lks_vec3& v) {
+        for (const lks_fixed part : {v.x, v.y, v.z}) {
+            add(static_cast<std::uint64_t>(part));
+        }
+    }
+    std::uint32_t folded() const { return static_cast<std::uint32_t>(sum_ ^ sum_ >> 32); }
+
+private:
+    std::uint64_t sum_ = 0xcbf29ce484222325u;
+};
+
+// What can be read of it: where it is, without the scene's offset, how it moves, and whether it sleeps.
+std::uint32_t digest_of(const lks_world* world, lks_body_id body, const lks_vec3& offset) {
+    lks_transform at{};
+    lks_vec3 velocity{};
+    lks_vec3 spin{};
+    lks_body_transform(world, body, &at);
+    lks_body_velocity(world, body, &velocity, &spin);
+    Digest digest;
+    digest.add({at.position.x - offset.x, at.position.y - offset.y, at.position.z - offset.z});
+    const lks_rotation& q = at.rotation;
+    for (const std::int32_t part : {q.x, q.y, q.z, q.w}) {
+        digest.add(static_cast<std::uint64_t>(std::int64_t{part}));
+    }
+    digest.add(velocity);
+    digest.add(spin);
+    digest.add(std::uint64_t{lks_body_is_awake(world, body)});
+    return digest.folded();
+}
+
 } // namespace
 
 Recorder::Recorder(lks_demo::Scene& scene) : scene_(scene) {
@@ -50,7 +88,26 @@ void Recorder::record_tick() {
     for (const lks_demo::ObjectLook& object : scene_.objects()) {
         record.objects.push_back({object.id.index, object.name, lks_object_hash(world, object.id)});
     }
+    for (const lks_demo::BodyLook& body : scene_.bodies()) {
+        record.bodies.push_back(digest_of(world, body.id, scene_.offset()));
+    }
     state_.ticks.push_back(record);
+}
+
+void Recorder::record_end() {
+    record_points();
+    record_bodies();
+}
+
+void Recorder::record_bodies() {
+    for (const lks_demo::BodyLook& body : scene_.bodies()) {
+        lks_transform at{};
+        lks_body_transform(scene_.world(), body.id, &at);
+        const lks_rotation& q = at.rotation;
+        state_.bodies.push_back({body.name, decimal(at.position),
+                                 std::to_string(q.x) + " " + std::to_string(q.y) + " " + std::to_string(q.z) +
+                                     " " + std::to_string(q.w)});
+    }
 }
 
 void Recorder::record_points() {
@@ -85,7 +142,7 @@ bool record_run(lks_demo::Scene& scene,
             return false;
         }
     }
-    recorder.record_points();
+    recorder.record_end();
     state = recorder.state();
     return true;
 }

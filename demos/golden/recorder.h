@@ -16,12 +16,14 @@ public:
     // After each tick.
     void record_tick();
     // After the last one.
-    void record_points();
+    void record_end();
 
     const GoldenState& state() const { return state_; }
 
 private:
     void record_parameters();
+    void record_points();
+    void record_bodies();
 
     lks_demo::Scene& scene_;
     GoldenState state_;

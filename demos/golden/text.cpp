@@ -13,6 +13,10 @@ std::string hexadecimal(std::uint64_t value) {
     return text;
 }
 
+std::string short_hexadecimal(std::uint32_t value) {
+    return hexadecimal(value).substr(8);
+}
+
 bool parse_hexadecimal(const std::string& text, std::uint64_t& value) {
     if (text.size() != 16 || text.find_first_not_of("0123456789abcdef") != std::string::npos) {
         return false;

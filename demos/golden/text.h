@@ -10,6 +10,8 @@ namespace lks_golden {
 
 // 16 lower-case hexadecimal digits.
 std::string hexadecimal(std::uint64_t value);
+// 8 of them.
+std::string short_hexadecimal(std::uint32_t value);
 // False unless the text is exactly 16 hexadecimal digits.
 bool parse_hexadecimal(const std::string& text, std::uint64_t& value);
 

@@ -32,7 +32,7 @@ const std::vector<Entry>& entries() {
          make_newtons_cradle},
         {{"ragdoll_stairs", "A mannequin tumbles down a flight of stairs", 300, 240, {50, 230}},
          make_ragdoll_stairs},
-        {{"ragdoll_pile", "Thirty mannequins fall into a pit and pile up", 420, 120, {60, 120}},
+        {{"ragdoll_pile", "Thirty mannequins fall into a pit and pile up", 420, 240, {60, 120}},
          make_ragdoll_pile},
         {{"ragdoll_hang",
           "A mannequin hangs by its hands on two ropes until one breaks",
