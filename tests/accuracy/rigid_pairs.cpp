@@ -133,7 +133,7 @@ TEST_CASE("a capsule thrown at a thin wall at 60 m/s is within 4e-5 m after half
 }
 
 // Later, at 20 substeps, it is chance: after half a second both are a centimetre aside.
-TEST_CASE("a figure that stumbles over a stair is within 5e-4 m after 0.3 s") {
+TEST_CASE("a figure that stumbles over a stair is within 1e-3 m after 0.3 s") {
     for (const int substeps : {5, 8, 20}) {
         RigidScene scene(with_substeps(substeps));
         add_step(scene);
@@ -148,6 +148,6 @@ TEST_CASE("a figure that stumbles over a stair is within 5e-4 m after 0.3 s") {
             }
         }
         check("figure on a stair" + substeps_name(substeps) + ", 0.3 s", scene.run({18}).back(),
-              {5e-4, 4e-3, 1.5});
+              {1e-3, 8e-3, 1.5});
     }
 }

@@ -56,6 +56,20 @@ public:
         }
     }
 
+    // In this substep.
+    Scalar exceeded(const Body& a, const Body& b) const {
+        Scalar beyond = 0;
+        Swing swing;
+        if (swings_ && find_swing(a, b, swing)) {
+            beyond = swing.angle - std::max(swing.limit, swing_start_);
+        }
+        Scalar twist = 0;
+        if (twists_ && find_twist(a, b, twist)) {
+            beyond = std::max({beyond, twist - twist_most_, twist_least_ - twist});
+        }
+        return beyond;
+    }
+
     // Without giving speed. True: one was exceeded by more than half a degree.
     bool undo(Body& a, Body& b) const {
         constexpr Scalar more = Scalar(1.5); // the points of the joint hold much of it back

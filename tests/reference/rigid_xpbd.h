@@ -195,8 +195,9 @@ private:
         contact_moves_.resize(bodies_.size());
         carry_pushes_on();
         for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
-            sweep();
+            sweep([](std::size_t) { return true; });
         }
+        relieve_held();
         for (Body& body : bodies_) {
             motion_.finish(body);
         }
@@ -233,6 +234,7 @@ private:
                 weights[figures_[joint.a]] = weights[figures_[joint.b]] = 0;
             }
         }
+        const bool gentle = settings_.tick_rate_hz * settings_.substeps >= 400;
         std::vector<Scalar> pushed(contacts_.size());
         const auto part = [&](std::size_t k) {
             const Contact& contact = contacts_[k];
@@ -241,11 +243,13 @@ private:
             const Scalar weight = weights[a] + weights[b];
             Scalar apart = 0;
             if (a == b || weight == 0 ||
-                !contact.wants_apart(Scalar(0.07) / static_cast<Scalar>(settings_.tick_rate_hz), apart)) {
+                !contact.wants_apart(
+                    Scalar(gentle ? 0.07 : 0.4) / static_cast<Scalar>(settings_.tick_rate_hz), apart)) {
                 return;
             }
             const Scalar missing = apart - contact.normal.dot(shifts[b] - shifts[a]);
-            const Scalar push = std::max(apart > 0 ? (4 * missing - pushed[k]) / 5 : missing, -pushed[k]);
+            const Scalar gently = std::max(apart > 0 ? (4 * missing - pushed[k]) / 5 : missing, -pushed[k]);
+            const Scalar push = gentle ? gently : std::max(missing, Scalar(0));
             pushed[k] += push;
             shifts[a] = shifts[a] - contact.normal * (push * weights[a] / weight);
             shifts[b] = shifts[b] + contact.normal * (push * weights[b] / weight);
@@ -278,27 +282,71 @@ private:
         }
     }
 
-    void sweep() {
-        for_each_joint([](Joint& joint, Body& a, Body& b) { joint.project_turn(a, b); });
-        solve_points();
-        for_each_contact([](Contact& contact, const Body& a, const Body& b) { contact.measure(a, b); });
-        project_contacts(false, false);
-        project_contacts(true, false);
-        project_contacts(true, true);
-        project_contacts(false, true);
+    // Of figures that take(figure) names.
+    template <typename Take>
+    void sweep(const Take& take) {
+        const auto takes = [&](const Contact& contact) {
+            const bool a = !bodies_[contact.a].moves || take(figures_[contact.a]);
+            const bool b = !bodies_[contact.b].moves || take(figures_[contact.b]);
+            return a && b;
+        };
+        const auto turn = [&](Joint& joint) {
+            if (take(figure_of(joint))) {
+                joint.project_turn(bodies_[joint.a], bodies_[joint.b]);
+            }
+        };
+        const auto solve = [&] {
+            for (const JointTree& tree : trees_) {
+                if (take(figure_of(joints_[tree.joints.front()]))) {
+                    solve_points(tree, true);
+                }
+            }
+        };
+        std::for_each(joints_.begin(), joints_.end(), turn);
+        solve();
+        for_each_contact([&](Contact& contact, const Body& a, const Body& b) {
+            if (takes(contact)) {
+                contact.measure(a, b);
+            }
+        });
+        project_contacts(false, false, takes);
+        project_contacts(true, false, takes);
+        project_contacts(true, true, takes);
+        project_contacts(false, true, takes);
         apply_contact_moves();
-        for (std::size_t i = joints_.size(); i-- > 0;) {
-            joints_[i].project_turn(bodies_[joints_[i].a], bodies_[joints_[i].b]);
-        }
-        solve_points();
+        std::for_each(joints_.rbegin(), joints_.rend(), turn);
+        solve();
     }
 
-    void project_contacts(bool shared, bool back) {
+    template <typename Takes>
+    void project_contacts(bool shared, bool back, const Takes& takes) {
         for (std::size_t k = 0; k < contacts_.size(); ++k) {
             Contact& contact = contacts_[back ? contacts_.size() - 1 - k : k];
-            if (is_shared(contact) == shared) {
+            if (is_shared(contact) == shared && takes(contact)) {
                 contact.project(contact_moves_[contact.a], contact_moves_[contact.b], back);
             }
+        }
+    }
+
+    // More of it for figures that hang on what does not move, while limits are exceeded.
+    void relieve_held() {
+        std::vector<bool> held(bodies_.size());
+        for (const Joint& joint : joints_) {
+            if (bodies_[joint.a].moves != bodies_[joint.b].moves) {
+                held[figure_of(joint)] = true;
+            }
+        }
+        for (int round = 0; round < 16; ++round) {
+            std::vector<bool> strained(bodies_.size());
+            for_each_joint([&](const Joint& joint, const Body& a, const Body& b) {
+                const std::size_t figure = figure_of(joint);
+                strained[figure] = strained[figure] ||
+                                   (held[figure] && joint.limits.exceeded(a, b) > Scalar(1) / Scalar(458));
+            });
+            if (std::find(strained.begin(), strained.end(), true) == strained.end()) {
+                return;
+            }
+            sweep([&](std::size_t figure) { return bool(strained[figure]); });
         }
     }
 

@@ -15,9 +15,12 @@ constexpr std::int64_t allowed_overlap = (std::int64_t{1} << world_fraction_bits
 // Of the rest so much is undone in a tick, at 7 cm/s at most: what is lifted faster than that falls back as
 // fast, and a heap goes on falling into the ground and being lifted out of it.
 constexpr std::int64_t share_a_tick = 3; // the third part
-constexpr std::int64_t greatest_speed = (std::int64_t{7} << world_fraction_bits) / 100;
+constexpr std::int64_t gentle_speed = (std::int64_t{7} << world_fraction_bits) / 100;
 // Pairs that want opposite things meet between them: each asks for less by a quarter of what it has pushed.
 constexpr std::int64_t firmness = 4;
+// In longer substeps than these what gives way comes to lie deep: there nobody does, at 0.4 m/s at most.
+constexpr std::uint64_t gentle_rate = 400;
+constexpr std::int64_t firm_speed = (std::int64_t{2} << world_fraction_bits) / 5;
 constexpr int sweeps = 4; // forward and back
 
 // All masses together: 1/m divided by how many times m they are, 30 fraction bits, at least one.
@@ -30,8 +33,9 @@ InverseMass divide_mass(const InverseMass& mass, std::uint64_t times) {
 
 class Parting {
 public:
-    Parting(RigidScene& scene, std::uint32_t ticks_per_second)
-        : scene_(scene), most_(greatest_speed / ticks_per_second) {}
+    Parting(RigidScene& scene, const StepRate& rate)
+        : scene_(scene), gentle_(rate.substeps_per_second >= gentle_rate),
+          most_((gentle_ ? gentle_speed : firm_speed) / rate.ticks_per_second) {}
 
     void run() {
         if (!any_overlaps()) {
@@ -148,14 +152,21 @@ private:
         return any;
     }
 
-    // A push is taken back where others have made it needless.
+    // What it is to push more; less where others have made its push needless.
+    std::int64_t push_for(const FigurePair& pair, std::int64_t missing) const {
+        if (!gentle_) {
+            return std::max<std::int64_t>(missing, 0);
+        }
+        const std::int64_t wanted =
+            pair.parted > 0 ? (firmness * missing - pair.pushed) / (firmness + 1) : missing;
+        return std::max(wanted, -pair.pushed);
+    }
+
     void part(FigurePair& pair) {
         FigureShift& a = scene_.figure_shifts[pair.a];
         FigureShift& b = scene_.figure_shifts[pair.b];
         const std::int64_t missing = pair.parted - fixed::dot(pair.normal, b.shift - a.shift);
-        const std::int64_t wanted_push =
-            pair.parted > 0 ? (firmness * missing - pair.pushed) / (firmness + 1) : missing;
-        const std::int64_t push = std::max(wanted_push, -pair.pushed);
+        const std::int64_t push = push_for(pair, missing);
         if (push == 0) {
             return;
         }
@@ -169,13 +180,14 @@ private:
     }
 
     RigidScene& scene_;
+    bool gentle_;
     std::int64_t most_;
 };
 
 } // namespace
 
-void part_figures(RigidScene& scene, std::uint32_t ticks_per_second) {
-    Parting(scene, ticks_per_second).run();
+void part_figures(RigidScene& scene, const StepRate& rate) {
+    Parting(scene, rate).run();
 }
 
 } // namespace lks

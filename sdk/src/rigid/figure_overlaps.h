@@ -7,10 +7,11 @@
 #pragma once
 
 #include "rigid/rigid_scene.h"
+#include "solver/step_rate.h"
 
 namespace lks {
 
 // At the end of a tick: by the contacts of its last substep.
-void part_figures(RigidScene& scene, std::uint32_t ticks_per_second);
+void part_figures(RigidScene& scene, const StepRate& rate);
 
 } // namespace lks

@@ -121,7 +121,7 @@ private:
         for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
             rigid_substep.run(substep);
         }
-        part_figures(scene_, world_.rate.ticks_per_second);
+        part_figures(scene_, world_.rate);
     }
 
     void finish() {
