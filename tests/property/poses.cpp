@@ -143,15 +143,10 @@ TEST_CASE("a powered ragdoll takes the pose that it is given, and goes limp with
 TEST_CASE("a spider stands on its eight legs, and falls where its strength leaves it") {
     World world(world_def(60, 8));
     add_ground(world);
-    lks_bone bones[LKS_SPIDER_BONES];
-    lks_body_shape shapes[LKS_SPIDER_BONES];
-    REQUIRE(lks_spider(bones, shapes) == LKS_OK);
-    lks_ragdoll_def def = lks_default_ragdoll_def();
-    def.bones = bones;
-    def.bone_count = LKS_SPIDER_BONES;
+    Spider spider;
     lks_body_id bodies[LKS_SPIDER_BONES];
     lks_joint_id joints[LKS_SPIDER_BONES - 1];
-    const lks_result added = lks_world_add_ragdoll(world, &def, bodies, joints);
+    const lks_result added = lks_world_add_ragdoll(world, &spider.def, bodies, joints);
     INFO(world.message());
     REQUIRE(added == LKS_OK);
     lks_transform rest[LKS_SPIDER_BONES];
@@ -161,11 +156,11 @@ TEST_CASE("a spider stands on its eight legs, and falls where its strength leave
         REQUIRE(lks_joint_error(world, joint, &error) == LKS_OK);
         CHECK(metres(error) < 1e-8);
     }
-    REQUIRE(lks_ragdoll_drive(world, &def, joints, rest, fixed(1), fixed(0.05)) == LKS_OK);
+    REQUIRE(lks_ragdoll_drive(world, &spider.def, joints, rest, fixed(1), fixed(0.05)) == LKS_OK);
     world.step(240);
     const double standing = state_of(world, bodies[LKS_SPIDER_THORAX]).position.y;
     CHECK(standing > 0.2);
-    REQUIRE(lks_ragdoll_drive(world, &def, joints, rest, 0, 0) == LKS_OK);
+    REQUIRE(lks_ragdoll_drive(world, &spider.def, joints, rest, 0, 0) == LKS_OK);
     world.step(240);
     CHECK(state_of(world, bodies[LKS_SPIDER_THORAX]).position.y < 0.15);
 }

@@ -33,21 +33,16 @@ struct Boxes {
 // Three limp spiders above each other, turned and a few centimetres aside by `part()`, 0 to 1.
 template <typename Part>
 void add_heap_of_spiders(World& world, const Part& part) {
-    lks_bone bones[LKS_SPIDER_BONES];
-    lks_body_shape shapes[LKS_SPIDER_BONES];
-    REQUIRE(lks_spider(bones, shapes) == LKS_OK);
-    lks_ragdoll_def def = lks_default_ragdoll_def();
-    def.bones = bones;
-    def.bone_count = LKS_SPIDER_BONES;
+    Spider spider;
     for (int i = 0; i < 3; ++i) {
         const double beside = 0.1 * i + 0.1 * part();
         const double along = 0.1 * (i % 2) + 0.1 * part();
-        def.transform.position = fixed(beside, 0.3 + 1.3 * i, along);
-        REQUIRE(lks_rotation_from_axis_angle(0, 1, 0, 37 * i + 100 * part(), &def.transform.rotation) ==
-                LKS_OK);
+        spider.def.transform.position = fixed(beside, 0.3 + 1.3 * i, along);
+        REQUIRE(lks_rotation_from_axis_angle(0, 1, 0, 37 * i + 100 * part(),
+                                             &spider.def.transform.rotation) == LKS_OK);
         lks_body_id bodies[LKS_SPIDER_BONES];
         lks_joint_id joints[LKS_SPIDER_BONES - 1];
-        REQUIRE(lks_world_add_ragdoll(world, &def, bodies, joints) == LKS_OK);
+        REQUIRE(lks_world_add_ragdoll(world, &spider.def, bodies, joints) == LKS_OK);
     }
 }
 

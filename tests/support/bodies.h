@@ -83,6 +83,21 @@ struct Humanoid {
     lks_ragdoll_def def = lks_default_ragdoll_def();
 };
 
+// The other figure of lockstitch/ragdoll.h.
+struct Spider {
+    Spider() {
+        REQUIRE(lks_spider(bones, shapes) == LKS_OK);
+        def.bones = bones;
+        def.bone_count = LKS_SPIDER_BONES;
+    }
+    Spider(const Spider&) = delete;
+    Spider& operator=(const Spider&) = delete;
+
+    lks_bone bones[LKS_SPIDER_BONES];
+    lks_body_shape shapes[LKS_SPIDER_BONES];
+    lks_ragdoll_def def = lks_default_ragdoll_def();
+};
+
 inline void add_ground(World& world, double friction = 0.5, const lks_rotation* rotation = nullptr) {
     lks_collider_def def = lks_default_collider_def();
     def.shape = LKS_SHAPE_PLANE;
