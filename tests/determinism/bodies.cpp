@@ -13,12 +13,19 @@ using namespace support;
 
 namespace {
 
+lks_world_def settings(std::uint32_t substeps, std::uint32_t workers, lks_simd simd) {
+    lks_world_def def = world_def(60, substeps);
+    def.worker_count = workers;
+    def.simd = static_cast<std::uint32_t>(simd);
+    return def;
+}
+
 // Two humanoids that fall onto each other, a stack, a ball that bounces into it, a moved plank, a rope's
 // worth of links: contacts and joints of every kind.
 class Playground {
 public:
     explicit Playground(const lks_vec3& offset = {}, std::uint32_t workers = 1, lks_simd simd = LKS_SIMD_AUTO)
-        : world(settings(workers, simd)), offset_(offset) {
+        : world(settings(6, workers, simd)), offset_(offset) {
         lks_collider_def ground = lks_default_collider_def();
         ground.shape = LKS_SHAPE_PLANE;
         ground.transform.position = place(0, 0, 0);
@@ -78,13 +85,6 @@ private:
             return chain.build();
         }();
         return asset;
-    }
-
-    static lks_world_def settings(std::uint32_t workers, lks_simd simd) {
-        lks_world_def def = world_def(60, 6);
-        def.worker_count = workers;
-        def.simd = static_cast<std::uint32_t>(simd);
-        return def;
     }
 
     lks_vec3 place(double x, double y, double z) const { return offset_ + fixed(x, y, z); }
@@ -281,10 +281,7 @@ TEST_CASE("bodies, cloth and ropes that touch have the same bits on every instru
 TEST_CASE("a crowd whose trees are solved side by side has the bits of plain integers") {
     // Two sizes; one is held, and another one loses a limb.
     const auto hashes_of = [](std::uint32_t workers, lks_simd simd) {
-        lks_world_def def = world_def(60, 6);
-        def.worker_count = workers;
-        def.simd = static_cast<std::uint32_t>(simd);
-        World world(def);
+        World world(settings(6, workers, simd));
         add_ground(world);
         lks_joint_id joints[LKS_HUMANOID_BONES - 1];
         for (int i = 0; i < 15; ++i) {
@@ -313,10 +310,7 @@ TEST_CASE("a crowd whose trees are solved side by side has the bits of plain int
 
 TEST_CASE("figures that are thrown at a wall, some of them ahead, have the bits of plain integers") {
     const auto hashes_of = [](std::uint32_t workers, lks_simd simd) {
-        lks_world_def def = world_def(60, 8);
-        def.worker_count = workers;
-        def.simd = static_cast<std::uint32_t>(simd);
-        World world(def);
+        World world(settings(8, workers, simd));
         add_box(world, fixed(0.025, 20, 20), fixed(3, 0, 0));
         add_body(world, box_shape(0.025, 2, 2, 20000), fixed(2.5, 0, 2));
         for (int i = 0; i < 12; ++i) {
@@ -337,10 +331,7 @@ TEST_CASE("figures that are thrown at a wall, some of them ahead, have the bits 
 
 TEST_CASE("figures that are held by a hand, one of them led about, have the bits of plain integers") {
     const auto hashes_of = [](std::uint32_t workers, lks_simd simd) {
-        lks_world_def def = world_def(60, 8);
-        def.worker_count = workers;
-        def.simd = static_cast<std::uint32_t>(simd);
-        World world(def);
+        World world(settings(8, workers, simd));
         lks_body_id anchors[9];
         for (int i = 0; i < 9; ++i) {
             Humanoid humanoid;
@@ -375,21 +366,15 @@ TEST_CASE("a pile saved as it lands goes on for 600 ticks with other workers and
             REQUIRE(humanoid.add(world) == LKS_OK);
         }
     };
-    const auto settings = [](std::uint32_t workers, lks_simd simd) {
-        lks_world_def def = world_def(60, 8);
-        def.worker_count = workers;
-        def.simd = static_cast<std::uint32_t>(simd);
-        return def;
-    };
-    World original(settings(1, LKS_SIMD_AUTO));
+    World original(settings(8, 1, LKS_SIMD_AUTO));
     fill(original, 6);
     original.step(50);
     lks_fixed moving = 0;
     REQUIRE(lks_world_kinetic_energy(original, &moving) == LKS_OK);
     REQUIRE(moving > LKS_FIXED(100)); // some lie, some still fall
     const Image image = original.save();
-    World fresh(settings(4, LKS_SIMD_SCALAR));
-    World dirty(settings(2, LKS_SIMD_AUTO));
+    World fresh(settings(8, 4, LKS_SIMD_SCALAR));
+    World dirty(settings(8, 2, LKS_SIMD_AUTO));
     fill(dirty, 8);
     dirty.step(120);
     for (World* world : {&fresh, &dirty}) {

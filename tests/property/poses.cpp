@@ -146,7 +146,7 @@ TEST_CASE("a spider stands on its eight legs, and falls where its strength leave
     Spider spider;
     lks_body_id bodies[LKS_SPIDER_BONES];
     lks_joint_id joints[LKS_SPIDER_BONES - 1];
-    const lks_result added = lks_world_add_ragdoll(world, &spider.def, bodies, joints);
+    const lks_result added = spider.add(world, bodies, joints);
     INFO(world.message());
     REQUIRE(added == LKS_OK);
     lks_transform rest[LKS_SPIDER_BONES];

@@ -40,9 +40,7 @@ void add_heap_of_spiders(World& world, const Part& part) {
         spider.def.transform.position = fixed(beside, 0.3 + 1.3 * i, along);
         REQUIRE(lks_rotation_from_axis_angle(0, 1, 0, 37 * i + 100 * part(),
                                              &spider.def.transform.rotation) == LKS_OK);
-        lks_body_id bodies[LKS_SPIDER_BONES];
-        lks_joint_id joints[LKS_SPIDER_BONES - 1];
-        REQUIRE(lks_world_add_ragdoll(world, &spider.def, bodies, joints) == LKS_OK);
+        REQUIRE(spider.add(world) == LKS_OK);
     }
 }
 

@@ -63,40 +63,28 @@ inline lks_joint_id add_joint(const World& world, lks_joint_def def, lks_body_id
     return id;
 }
 
-// The humanoid of lockstitch/ragdoll.h, for tests that put it somewhere or break it.
-struct Humanoid {
-    Humanoid() {
-        REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
+// A figure of lockstitch/ragdoll.h, for tests that put it somewhere or break it.
+template <std::uint32_t bone_count, lks_result (*describe)(lks_bone*, lks_body_shape*)>
+struct ReadyFigure {
+    ReadyFigure() {
+        REQUIRE(describe(bones, shapes) == LKS_OK);
         def.bones = bones;
-        def.bone_count = LKS_HUMANOID_BONES;
+        def.bone_count = bone_count;
     }
-    Humanoid(const Humanoid&) = delete;
-    Humanoid& operator=(const Humanoid&) = delete;
+    ReadyFigure(const ReadyFigure&) = delete;
+    ReadyFigure& operator=(const ReadyFigure&) = delete;
 
     lks_result add(const World& world, lks_body_id* ids = nullptr, lks_joint_id* joints = nullptr) const {
-        lks_body_id bodies[LKS_HUMANOID_BONES];
+        lks_body_id bodies[bone_count];
         return lks_world_add_ragdoll(world, &def, ids == nullptr ? bodies : ids, joints);
     }
 
-    lks_bone bones[LKS_HUMANOID_BONES];
-    lks_body_shape shapes[LKS_HUMANOID_BONES];
+    lks_bone bones[bone_count];
+    lks_body_shape shapes[bone_count];
     lks_ragdoll_def def = lks_default_ragdoll_def();
 };
-
-// The other figure of lockstitch/ragdoll.h.
-struct Spider {
-    Spider() {
-        REQUIRE(lks_spider(bones, shapes) == LKS_OK);
-        def.bones = bones;
-        def.bone_count = LKS_SPIDER_BONES;
-    }
-    Spider(const Spider&) = delete;
-    Spider& operator=(const Spider&) = delete;
-
-    lks_bone bones[LKS_SPIDER_BONES];
-    lks_body_shape shapes[LKS_SPIDER_BONES];
-    lks_ragdoll_def def = lks_default_ragdoll_def();
-};
+using Humanoid = ReadyFigure<LKS_HUMANOID_BONES, lks_humanoid>;
+using Spider = ReadyFigure<LKS_SPIDER_BONES, lks_spider>;
 
 inline void add_ground(World& world, double friction = 0.5, const lks_rotation* rotation = nullptr) {
     lks_collider_def def = lks_default_collider_def();
