@@ -53,7 +53,7 @@ struct BatchPart {
     std::uint32_t first_single; // constraint: from here on its ends are in the task's `constraints`
     // Outside of these, which need not be in `range`, both ends have the same share.
     ConstraintRange unequal_shares;
-    bool few_unequal; // of the batch: it pays to take them out
+    bool few_unequal; // of the batch: what kernels do where both are the same may pay
     bool whole;       // nobody else is at work on the batch
 };
 

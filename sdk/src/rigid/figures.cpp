@@ -21,6 +21,11 @@ void find_ranges(RigidScene& scene) {
             }
         }
         range.begins[part_kinds] = i;
+        for_each_part(scene, range, Part::joint, [&](std::uint32_t joint) {
+            const JointDescription& d = scene.joints[joint].description;
+            range.is_held =
+                range.is_held || !scene.bodies[d.body_a].is_awake() || !scene.bodies[d.body_b].is_awake();
+        });
         scene.figure_ranges.push_reserved(range);
     }
 }

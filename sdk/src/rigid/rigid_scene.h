@@ -55,12 +55,6 @@ struct FigurePair {
 // What a load puts into a slot: nothing, what is defined as what is there, or something else.
 enum class Loaded : std::uint8_t { nothing, same, other };
 
-// Of what needs more iterations than others.
-struct FigureStrain {
-    bool is_held; // by a joint to what does not move
-    bool is_strained;
-};
-
 struct RigidScene {
     RigidScene(const lks_allocator& allocator, const TreeKernels& tree_kernels);
     RigidScene(const RigidScene&) = delete;
@@ -115,7 +109,7 @@ struct RigidScene {
     Array<std::int32_t>
         figure_shares; // by awake figure: what is added to its pushes (rigid/carried_pushes.h)
     Array<std::uint8_t> figures_changed;  // by the least body: while shares are added
-    Array<FigureStrain> strained_figures; // by the least body; empty where none is
+    Array<std::uint8_t> strained_figures; // by the least body; empty where none is
     Array<FigureShift> figure_shifts;     // by the least body; and one for what stays
     Array<FigurePair> figure_pairs;
     Array<IslandRest> island_rests; // by the least body of an island

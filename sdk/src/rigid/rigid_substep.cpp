@@ -303,9 +303,10 @@ void RigidSubstep::iterate(std::uint32_t substep) {
     collide_objects(substep);
 }
 
-FigureStrain& RigidSubstep::strain_of(std::uint32_t body) {
+// The figure of a body.
+void RigidSubstep::mark_strained(std::uint32_t body) {
     static_cast<void>(scene_.strained_figures.resize(scene_.bodies.size())); // within its room
-    return scene_.strained_figures[scene_.figures[body]];
+    scene_.strained_figures[scene_.figures[body]] = 1;
 }
 
 // What something stops that might pass it, or that it might pass, and that goes on by more than a centimetre.
@@ -316,64 +317,42 @@ void RigidSubstep::mark_hard_impacts() {
         if (!contact.fast || (bodies.a.jointed && bodies.b.jointed) || !closes(contact, bodies, hard)) {
             continue;
         }
-        strain_of(contact.key.body_a).is_strained = true;
+        mark_strained(contact.key.body_a);
         if (contact.key.other < other_is_collider) {
-            strain_of(contact.key.other).is_strained = true;
+            mark_strained(contact.key.other);
         }
     }
-}
-
-// False: nobody is.
-bool RigidSubstep::mark_held() {
-    bool any = false;
-    for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-        if (!scene_.joint_slots[i].used) {
-            continue;
-        }
-        const JointDescription& d = scene_.joints[i].description;
-        const bool a_moves = scene_.bodies[d.body_a].is_awake();
-        const bool b_moves = scene_.bodies[d.body_b].is_awake();
-        if (a_moves != b_moves) {
-            strain_of(a_moves ? d.body_a : d.body_b).is_held = true;
-            any = true;
-        }
-    }
-    return any;
 }
 
 // Of those that are held: by more than an eighth of a degree.
 void RigidSubstep::mark_exceeded_limits() {
     constexpr std::int64_t far = (std::int64_t{1} << world_fraction_bits) / 458;
-    if (!mark_held()) {
-        return;
-    }
-    in_figures([this](const FigureRange& figure) {
-        FigureStrain& strain = scene_.strained_figures[figure_of(scene_.figure_parts[figure.begin()])];
-        if (strain.is_held) {
+    for (const FigureRange& figure : scene_.figure_ranges) {
+        if (figure.is_held) {
             for_each_joint(figure, [&](const Joint& joint, const Body& a, const Body& b) {
-                strain.is_strained = strain.is_strained || exceeded_limits(joint, a, b) > far;
+                if (exceeded_limits(joint, a, b) > far) {
+                    mark_strained(figure_of(scene_.figure_parts[figure.begin()]));
+                }
             });
         }
-    });
+    }
 }
 
 // False: no figure is.
 bool RigidSubstep::find_strained() {
-    Array<FigureStrain>& strained = scene_.strained_figures;
-    strained.clear();
+    scene_.strained_figures.clear();
     mark_hard_impacts();
     mark_exceeded_limits();
-    return std::any_of(strained.begin(), strained.end(),
-                       [](const FigureStrain& strain) { return strain.is_strained; });
+    return !scene_.strained_figures.empty();
 }
 
 bool RigidSubstep::is_strained(const FigureRange& figure) const {
-    return scene_.strained_figures[figure_of(scene_.figure_parts[figure.begin()])].is_strained;
+    return scene_.strained_figures[figure_of(scene_.figure_parts[figure.begin()])] != 0;
 }
 
 bool RigidSubstep::are_strained(const Contact& shared) const {
-    return scene_.strained_figures[scene_.figures[shared.key.body_a]].is_strained &&
-           scene_.strained_figures[scene_.figures[shared.key.other]].is_strained;
+    return scene_.strained_figures[scene_.figures[shared.key.body_a]] != 0 &&
+           scene_.strained_figures[scene_.figures[shared.key.other]] != 0;
 }
 
 // A hand that a wall has stopped is drawn on by the arm and the chest behind it: its contact knows its own

@@ -54,9 +54,8 @@ private:
     void project_contacts(const FigureRange& figure);
     void project_back(const FigureRange& figure);
     void iterate(std::uint32_t substep);
-    FigureStrain& strain_of(std::uint32_t body);
+    void mark_strained(std::uint32_t body);
     void mark_hard_impacts();
-    bool mark_held();
     void mark_exceeded_limits();
     bool find_strained();
     bool is_strained(const FigureRange& figure) const;

@@ -109,9 +109,6 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
         batches[b].share_exponent = std::clamp(exponent, 0, 40);
         batches[b].parameters = distance_parameters(batch, batches[b].share_exponent, families[batch.family]);
         batches[b].unequal_shares = {};
-        batches[b].unequal_count = 0;
-        std::fill_n(shares_a.data() + batch.first, batch.count, 0);
-        std::fill_n(shares_b.data() + batch.first, batch.count, 0);
         for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
             update_constraint(asset, rate, none, i, b);
         }
