@@ -3,69 +3,20 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
-#include "kernels/force_inline.h"
-#include "rigid/block.h"
+#include "rigid/articulation_algebra.h"
 #include "rigid/body_motion.h"
 
 namespace lks {
 namespace {
 
+using namespace tree_detail;
 using fixed::Direction;
 using fixed::Vec3;
 
-constexpr int fraction_bits = 32;
-constexpr std::int64_t one = std::int64_t{1} << fraction_bits;
+constexpr std::int64_t one = std::int64_t{1} << tree_fraction_bits;
+
 // (hω)² of a body's swing: a ten-thousandth of its inverse inertia is left, which has 30 bits.
 constexpr std::int64_t greatest_load = std::int64_t{1} << (world_fraction_bits + 14);
-
-// What an image made up may be anything: sums wrap.
-constexpr auto plus = fixed::wrapping_add;
-constexpr auto minus = fixed::wrapping_subtract;
-
-Vec3 multiply_32(std::int64_t a, const Vec3& v) {
-    return {lks::multiply_32(a, v.x), lks::multiply_32(a, v.y), lks::multiply_32(a, v.z)};
-}
-
-// To the nearest, so that bodies keep their momentum.
-Vec3 rounded_share(std::int64_t share, const Vec3& v) {
-    const auto part = [share](std::int64_t c) { return fixed::multiply_shift(share, c, fraction_bits); };
-    return {part(v.x), part(v.y), part(v.z)};
-}
-
-std::int64_t dot_32(const Vec3& a, const Vec3& b) {
-    return plus(plus(lks::multiply_32(a.x, b.x), lks::multiply_32(a.y, b.y)), lks::multiply_32(a.z, b.z));
-}
-
-LKS_FORCE_INLINE Vec3 cross_32(const Vec3& a, const Vec3& b) {
-    const auto m = lks::multiply_32;
-    return Vec3{m(a.y, b.z), m(a.z, b.x), m(a.x, b.y)} - Vec3{m(a.z, b.y), m(a.x, b.z), m(a.y, b.x)};
-}
-
-// Where a symmetric matrix has its rows: xx, xy, xz, yy, yz, zz.
-constexpr int rows_of_symmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-
-Vec3 symmetric(const std::int64_t (&m)[6], const Vec3& v) {
-    return {dot_32({m[0], m[1], m[2]}, v), dot_32({m[1], m[3], m[4]}, v), dot_32({m[2], m[4], m[5]}, v)};
-}
-
-std::int64_t component(const Vec3& v, int i) {
-    return i == 0 ? v.x : i == 1 ? v.y : v.z;
-}
-
-// Without what its joints carry.
-ArticulatedInverse own_inverse(const Body& body, std::int64_t share) {
-    ArticulatedInverse inverse{};
-    inverse.shift[0] = inverse.shift[3] = inverse.shift[5] = share;
-    const SymmetricMatrix& m = body.world_inverse;
-    const std::int32_t entries[6] = {m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
-    for (int i = 0; i < 6; ++i) {
-        const int up = body.inverse_shift + fraction_bits - 30;
-        const std::int64_t entry =
-            up >= 0 ? entries[i] * (std::int64_t{1} << up) : entries[i] >> std::min(-up, 31);
-        inverse.turn[i] = lks::multiply_32(share, entry);
-    }
-    return inverse;
-}
 
 // What a push along each axis at the lever does: its shift and its turn.
 void push_columns(const ArticulatedInverse& w, const Vec3& lever, Vec3 (&shift)[3], Vec3 (&turn)[3]) {
@@ -94,17 +45,6 @@ void add_point_motion(const Vec3& lever, const Vec3 (&shift)[3], const Vec3 (&tu
             ++entry;
         }
     }
-}
-
-// Of a pivot with 32 fraction bits. What is too small to be one lets nothing be pushed.
-Inverse invert_pivot(std::int64_t pivot) {
-    constexpr std::int64_t least = 1 << 4;
-    if (pivot < least) {
-        return {0, 0};
-    }
-    Inverse inverse = lks::invert(pivot);
-    inverse.shift -= fraction_bits - 30;
-    return inverse;
 }
 
 // D⁻¹ by D = L·diag·Lᵀ.
@@ -154,19 +94,6 @@ void fold_in(ArticulatedInverse& w, const ArticulatedJoint& joint) {
     }
 }
 
-Vec3 lever_in_units(const Body& body, const Vec3& point) {
-    const Vec3 lever = fixed::rotate(body.rotation, point);
-    const int down = world_fraction_bits - fraction_bits + body.scale;
-    const auto part = [down](std::int64_t c) {
-        return down >= 0 ? c >> down : c * (std::int64_t{1} << -down);
-    };
-    return {part(lever.x), part(lever.y), part(lever.z)};
-}
-
-const Vec3& point_of(const Joint& joint, bool on_a) {
-    return on_a ? joint.description.point_a : joint.description.point_b;
-}
-
 void factor_joint(RigidScene& scene, ArticulatedJoint& part) {
     const Joint& joint = scene.joints[part.joint];
     ArticulatedBody& parent = scene.articulated[part.parent];
@@ -203,25 +130,6 @@ void stiffen(Body& body, std::int64_t load) {
     };
     const SymmetricMatrix& m = body.world_inverse;
     body.world_inverse = {part(m.xx), part(m.xy), part(m.xz), part(m.yy), part(m.yz), part(m.zz)};
-}
-
-// How the body's point at the lever moves with it.
-Vec3 point_motion(const ArticulatedBody& body, const Vec3& lever) {
-    return body.shift + cross_32(body.turn, lever);
-}
-
-void add_force(ArticulatedBody& body, const Vec3& lever, const Vec3& push) {
-    body.force = body.force + push;
-    body.torque = body.torque + cross_32(lever, push);
-}
-
-// What the pushes of its joints do to it, all at once: one by one they may be large, and of the heavy end of
-// a chain only a small rest remains.
-Move move_of(const Body& body, const ArticulatedBody& part) {
-    const Vec3 turn = multiply(body.world_inverse, rounded_share(part.share, part.torque));
-    const int up = body.inverse_shift - body.scale - 1 + half_turn_fraction_bits - world_fraction_bits;
-    return {rounded_share(part.share, part.force),
-            {shifted(turn.x, up), shifted(turn.y, up), shifted(turn.z, up)}};
 }
 
 // The bodies and joints of one tree.
