@@ -32,7 +32,8 @@ inline std::int64_t dot_32(const fixed::Vec3& a, const fixed::Vec3& b) {
 
 LKS_FORCE_INLINE fixed::Vec3 cross_32(const fixed::Vec3& a, const fixed::Vec3& b) {
     const auto m = lks::multiply_32;
-    return fixed::Vec3{m(a.y, b.z), m(a.z, b.x), m(a.x, b.y)} - fixed::Vec3{m(a.z, b.y), m(a.x, b.z), m(a.y, b.x)};
+    return fixed::Vec3{m(a.y, b.z), m(a.z, b.x), m(a.x, b.y)} -
+           fixed::Vec3{m(a.z, b.y), m(a.x, b.z), m(a.y, b.x)};
 }
 
 // Where a symmetric matrix has its rows: xx, xy, xz, yy, yz, zz.
