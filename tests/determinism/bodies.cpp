@@ -329,15 +329,22 @@ TEST_CASE("figures that are thrown at a wall, some of them ahead, have the bits 
     check_lanes(hashes_of);
 }
 
-TEST_CASE("figures that are held by a hand, one of them led about, have the bits of plain integers") {
+TEST_CASE("figures that are held by a hand or led by a bone have the bits of plain integers") {
     const auto hashes_of = [](std::uint32_t workers, lks_simd simd) {
         World world(settings(8, workers, simd));
         lks_body_id anchors[9];
+        lks_body_id led[9];
         for (int i = 0; i < 9; ++i) {
             Humanoid humanoid;
             humanoid.def.transform = {fixed(0, 0, 4 * i), about(0, 1, 0, 20 * i)};
             lks_body_id bodies[LKS_HUMANOID_BONES];
             REQUIRE(humanoid.add(world, bodies) == LKS_OK);
+            // And one of which a bone itself is led.
+            humanoid.def.transform.position.x = fixed(4);
+            lks_body_id others[LKS_HUMANOID_BONES];
+            REQUIRE(humanoid.add(world, others) == LKS_OK);
+            led[i] = others[(5 + 3 * i) % LKS_HUMANOID_BONES];
+            REQUIRE(lks_body_set_kind(world, led[i], LKS_BODY_KINEMATIC) == LKS_OK);
             const lks_body_id hand = bodies[i % 2 == 0 ? LKS_HUMANOID_HAND_LEFT : LKS_HUMANOID_HAND_RIGHT];
             const Vector place = state_of(world, hand).position;
             anchors[i] = add_anchor(world, fixed(place.x, place.y, place.z));
@@ -345,10 +352,12 @@ TEST_CASE("figures that are held by a hand, one of them led about, have the bits
         }
         std::vector<std::uint64_t> hashes;
         for (int i = 0; i < 60; ++i) {
-            lks_transform to{};
-            REQUIRE(lks_body_transform(world, anchors[4], &to) == LKS_OK);
-            to.position.x += fixed(0.05);
-            REQUIRE(lks_body_move_to(world, anchors[4], to) == LKS_OK);
+            for (const lks_body_id body : {anchors[4], led[0], led[2], led[3], led[7]}) {
+                lks_transform to{};
+                REQUIRE(lks_body_transform(world, body, &to) == LKS_OK);
+                to.position.x += fixed(0.05);
+                REQUIRE(lks_body_move_to(world, body, to) == LKS_OK);
+            }
             world.step();
             hashes.push_back(world.hash());
         }

@@ -300,7 +300,7 @@ TEST_CASE("a crowd that falls upon each other gains no energy") {
 }
 
 // A hand of 0.45 kg bears 78 kg, and its limits, which know the masses of their two bones, what swings below.
-// With one iteration joints came 47 to 130 cm apart, and 1.6 MJ came of nothing.
+// With rows alone joints came 47 to 130 cm apart, and 1.6 MJ came of nothing.
 TEST_CASE("a ragdoll that is held by a hand and led about stays in one piece") {
     for (const double speed : {0.0, 2.0, 6.0}) {
         for (const std::uint32_t substeps : {4u, 8u}) {
@@ -342,9 +342,10 @@ TEST_CASE("a ragdoll that is held by a hand and led about stays in one piece") {
                               << std::string(soft ? ", softly: " : ": ") << 1e3 * ragdolls.worst()
                               << " mm apart at the worst, limits exceeded by " << ragdolls.limit()
                               << " degrees, " << rise << " J gained, " << greatest << " J at the most");
-                CHECK(ragdolls.worst() < 2e-3);
-                CHECK(ragdolls.limit() < 8);
-                CHECK(rise < 20);
+                CHECK(ragdolls.worst() < (soft ? 1e-3 : 0.5e-3));
+                CHECK(ragdolls.limit() < (soft ? 4 : 1));
+                CHECK(rise < (soft ? 40 : 8));
+                CHECK(greatest < (speed == 6 ? 18e3 : 3e3));
             }
         }
     }

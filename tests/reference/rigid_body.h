@@ -45,15 +45,21 @@ struct MovingBody {
     Vec start_position, predicted_position, uncarried_position;
     Quat start_orientation, predicted_orientation, uncarried_orientation;
     Vec force, torque;
-    Scalar load = 0; // (hω)² of its swing under what its joints pulled in the substep before
+    Vec carried_torque; // of a held figure: what the next solve of its points begins with
+    Scalar load = 0;    // (hω)² of its swing under what its joints pull: as heavily as that it turns
+    Scalar found_load = 0;
 
     void follow_rotation() { world_inverse = rotation.around(inverse_inertia); }
     // A light link under a great tension swings faster than a substep can follow: beyond that it turns as if
     // it were heavier.
     void stiffen() {
-        const Scalar excess = load - 2;
-        if (excess > 0) {
-            world_inverse = rotation.around(inverse_inertia * (1 / (1 + excess)));
+        if (found_load > load) {
+            const auto heaviness = [](Scalar pull) { return 1 + std::max(pull - 2, Scalar(0)); };
+            const Scalar left = heaviness(load) / heaviness(found_load);
+            for (Vec& row : world_inverse.rows) {
+                row = row * left;
+            }
+            load = found_load;
         }
     }
     Vec velocity_at(const Vec& lever) const { return velocity + cross(spin, lever); }

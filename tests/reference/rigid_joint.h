@@ -24,6 +24,7 @@ public:
           frame_b_(quaternion_of<Scalar>(from.frame_b)) {}
 
     std::size_t a, b;
+    bool in_held_tree = false;
     JointLimits<Scalar> limits;
     // Of the substep.
     Vec start;            // how far the points were apart at its beginning
@@ -32,7 +33,7 @@ public:
     Scalar tension = 0;   // the same of the substep before
 
     void begin(const Body& body_a, const Body& body_b) {
-        tension = std::abs(push.x) + std::abs(push.y) + std::abs(push.z);
+        tension = size_of(push);
         push = {};
         start = offset(body_a, body_b);
         turn_start_ = turned_apart(body_a, body_b);
@@ -48,23 +49,39 @@ public:
         lever_b = body_b.rotation * point_b_;
     }
 
+    // With what has been pushed in this substep, if it is much more.
+    void raise_tension() { tension = std::max(tension, size_of(push) / 4); }
     // (hω)² of each body's swing across the lever under the tension.
     void add_loads(Body& body_a, Body& body_b) const {
-        body_a.load += tension * swing_arm(body_a, point_a_);
-        body_b.load += tension * swing_arm(body_b, point_b_);
+        body_a.found_load += tension * swing_arm(body_a, point_a_);
+        body_b.found_load += tension * swing_arm(body_b, point_b_);
     }
 
     // After the prediction.
-    void turn_again(Body& body_a, Body& body_b) {
+    void prepare_turn(const Body& body_a, const Body& body_b) {
         if (holds_turn()) {
             factor_turning(body_a, body_b);
             if (kind_ == LKS_JOINT_HINGE) {
                 const Vec u = hinge_axis(body_a);
                 turn_ = turn_ - u * u.dot(turn_);
             }
+        }
+    }
+    void turn_again(Body& body_a, Body& body_b) {
+        if (holds_turn()) {
             turn_apart(body_a, body_b, turn_);
         }
         limits.push_again(body_a, body_b);
+    }
+    // What turns b against a; and what is added to it by a share.
+    Vec carried_turn(const Body& body_a, const Body& body_b) const {
+        return (holds_turn() ? turn_ : Vec{}) + limits.pushed(body_a, body_b);
+    }
+    Vec add_to_carried_turn(const Body& body_a, const Body& body_b, Scalar share) {
+        const Vec before = carried_turn(body_a, body_b);
+        turn_ = turn_ + turn_ * share;
+        limits.scale(share);
+        return carried_turn(body_a, body_b) - before;
     }
     void carry_more(Body& body_a, Body& body_b, Scalar share) {
         if (holds_turn()) {
@@ -80,6 +97,36 @@ public:
             turn_ = turn_ + turn_back(body_a, body_b, turned_apart(body_a, body_b) - turn_start_);
         }
         limits.project(body_a, body_b);
+    }
+
+    // By how much it is strained, what must not turn or limits, in this substep; or at all.
+    Scalar strain(const Body& body_a, const Body& body_b, bool in_substep) const {
+        Scalar most = in_substep ? limits.exceeded(body_a, body_b) : limits.beyond(body_a, body_b);
+        if (holds_turn()) {
+            const Vec turned = turned_in(body_a, body_b, in_substep);
+            for (const Vec& axis : held_axes(body_a)) {
+                most = std::max(most, std::abs(axis.dot(turned)));
+            }
+        }
+        return most;
+    }
+    // In this substep, or at all.
+    void add_rows(const Body& body_a, const Body& body_b, bool in_substep,
+                  std::vector<HeldRow<Scalar>>& rows) {
+        if (holds_turn()) {
+            const Vec turned = turned_in(body_a, body_b, in_substep);
+            for (const Vec& axis : held_axes(body_a)) {
+                rows.push_back({axis, axis.dot(turned), 0, nullptr, 1});
+            }
+        }
+        limits.add_rows(body_a, body_b, in_substep, rows);
+    }
+    void keep_push(const HeldRow<Scalar>& row, Scalar more) {
+        if (row.is_limit()) {
+            *row.kept = std::max(row.push + more, Scalar(0)) * row.sign;
+        } else {
+            turn_ = turn_ + row.axis * more;
+        }
     }
 
     // Without giving speed. True: a limit was exceeded by more than half a degree.
@@ -112,6 +159,21 @@ private:
 
     // What hinges and fixed joints don't let turn: the sine between the axes, or twice the sine of half the
     // angle between the frames.
+    static Scalar size_of(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+    // In this substep, or at all.
+    Vec turned_in(const Body& body_a, const Body& body_b, bool in_substep) const {
+        return turned_apart(body_a, body_b) - (in_substep ? turn_start_ : Vec{});
+    }
+    // About which b may not turn against a.
+    std::vector<Vec> held_axes(const Body& body_a) const {
+        if (kind_ != LKS_JOINT_HINGE) {
+            return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        }
+        const Vec u = hinge_axis(body_a);
+        const Vec some = cross(u, std::abs(u.x) < std::abs(u.y) ? Vec{1, 0, 0} : Vec{0, 1, 0});
+        const Vec across = some * (1 / some.length());
+        return {across, cross(u, across)};
+    }
     Vec turned_apart(const Body& body_a, const Body& body_b) const {
         if (kind_ == LKS_JOINT_HINGE) {
             return cross(hinge_axis(body_a), body_b.rotation * frame_b_.matrix().column(1));

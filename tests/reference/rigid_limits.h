@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "reference/rigid_body.h"
+#include "reference/rigid_held.h"
 
 namespace reference {
 
@@ -41,8 +42,20 @@ public:
     }
 
     void push_again(Body& a, Body& b) const { push(a, b, swing_push_, twist_push_); }
+    // What they push, b against a.
+    Vec pushed(const Body& a, const Body& b) const {
+        Vec sum;
+        Swing swing;
+        if (swing_push_ != 0 && find_swing(a, b, swing)) {
+            sum = swing.axis * -swing_push_;
+        }
+        return twist_push_ != 0 ? sum + twist_axis(a, b) * twist_push_ : sum;
+    }
     void carry_more(Body& a, Body& b, Scalar share) {
         push(a, b, swing_push_ * share, twist_push_ * share);
+        scale(share);
+    }
+    void scale(Scalar share) {
         swing_push_ += swing_push_ * share;
         twist_push_ += twist_push_ * share;
     }
@@ -68,6 +81,40 @@ public:
             beyond = std::max({beyond, twist - twist_most_, twist_least_ - twist});
         }
         return beyond;
+    }
+
+    // By how much they are exceeded at all.
+    Scalar beyond(const Body& a, const Body& b) const {
+        Scalar worst = 0;
+        Swing swing;
+        if (swings_ && find_swing(a, b, swing)) {
+            worst = swing.angle - swing.limit;
+        }
+        Scalar twist = 0;
+        if (twists_ && find_twist(a, b, twist)) {
+            worst = std::max({worst, twist - twist_max_, twist_min_ - twist});
+        }
+        return worst;
+    }
+
+    // In this substep, or at all; of a twist the nearer one.
+    void add_rows(const Body& a, const Body& b, bool in_substep, std::vector<HeldRow<Scalar>>& rows) {
+        if (swings_) {
+            const Swing swing = measure_swing(a, b);
+            const Scalar limit = in_substep ? std::max(swing.limit, swing_start_) : swing.limit;
+            rows.push_back({swing.axis * Scalar(-1), limit - swing.angle, in_substep ? swing_push_ : 0,
+                            &swing_push_, 1});
+        }
+        if (twists_) {
+            const Scalar twist = measure_twist(a, b);
+            const Scalar push = in_substep ? twist_push_ : 0;
+            const Scalar to_most = (in_substep ? twist_most_ : twist_max_) - twist;
+            const Scalar to_least = twist - (in_substep ? twist_least_ : twist_min_);
+            const bool most = push < 0 || (push == 0 && to_most < to_least);
+            const Scalar sign = most ? -1 : 1;
+            rows.push_back(
+                {twist_axis(a, b) * sign, most ? to_most : to_least, push * sign, &twist_push_, sign});
+        }
     }
 
     // Without giving speed. True: one was exceeded by more than half a degree.
@@ -102,18 +149,19 @@ private:
     Vec axis_a(const Body& a) const { return a.rotation * frame_a_.matrix().column(1); }
     Vec axis_b(const Body& b) const { return b.rotation * frame_b_.matrix().column(1); }
 
-    // False: within the least limit, and nothing is pushed that could be taken back.
-    bool find_swing(const Body& a, const Body& b, Swing& swing) const {
+    Swing measure_swing(const Body& a, const Body& b) const {
         const Vec u = axis_a(a);
         const Vec v = axis_b(b);
         const Vec sine = cross(u, v);
-        swing.angle = std::atan2(sine.length(), u.dot(v));
-        if (swing.angle <= std::min(limit_x_, limit_z_) && swing_push_ == 0) {
-            return false;
-        }
-        swing.axis = sine * (1 / sine.length());
-        swing.limit = swing_limit(a, v);
-        return true;
+        const Scalar length = sine.length();
+        const Vec some = std::abs(u.x) < std::abs(u.y) ? Vec{0, -u.z, u.y} : Vec{-u.z, 0, u.x};
+        return {length > 0 ? sine * (1 / length) : some * (1 / some.length()), std::atan2(length, u.dot(v)),
+                swing_limit(a, v)};
+    }
+    // False: within the least limit, and nothing is pushed that could be taken back.
+    bool find_swing(const Body& a, const Body& b, Swing& swing) const {
+        swing = measure_swing(a, b);
+        return swing.angle > std::min(limit_x_, limit_z_) || swing_push_ != 0;
     }
 
     // On the ellipse: (cos φ/limit_x, sin φ/limit_z) has length 1/limit.
@@ -126,13 +174,16 @@ private:
         return std::hypot(x, z) / std::hypot(x / limit_x_, z / limit_z_);
     }
 
-    // False: within the limits.
-    bool find_twist(const Body& a, const Body& b, Scalar& twist) const {
+    Scalar measure_twist(const Body& a, const Body& b) const {
         Quat q = (a.orientation * frame_a_).conjugate() * (b.orientation * frame_b_);
         if (q.w < 0) {
             q = {-q.x, -q.y, -q.z, -q.w};
         }
-        twist = 2 * std::atan2(q.y, q.w);
+        return 2 * std::atan2(q.y, q.w);
+    }
+    // False: within the limits.
+    bool find_twist(const Body& a, const Body& b, Scalar& twist) const {
+        twist = measure_twist(a, b);
         return twist < twist_min_ || twist > twist_max_ || twist_push_ != 0;
     }
 

@@ -109,6 +109,7 @@ private:
     // The joints of a figure.
     struct JointTree {
         std::vector<std::size_t> joints;
+        bool held = false;              // by one that does not move
         SymmetricSystem<Scalar> points; // at the predicted pose
     };
 
@@ -128,6 +129,12 @@ private:
             }
             JointTree tree;
             tree.joints = joints_from(figure);
+            for (const std::size_t i : tree.joints) {
+                tree.held = tree.held || bodies_[joints_[i].a].moves != bodies_[joints_[i].b].moves;
+            }
+            for (const std::size_t i : tree.joints) {
+                joints_[i].in_held_tree = tree.held;
+            }
             if (!tree.joints.empty()) {
                 trees_.push_back(std::move(tree));
             }
@@ -282,24 +289,25 @@ private:
         }
     }
 
-    // Of figures that take(figure) names.
+    // Of figures that take(figure) names; held ones with their turns or by rows.
     template <typename Take>
-    void sweep(const Take& take) {
+    void sweep(const Take& take, bool with_turns = false) {
         const auto takes = [&](const Contact& contact) {
             const bool a = !bodies_[contact.a].moves || take(figures_[contact.a]);
             const bool b = !bodies_[contact.b].moves || take(figures_[contact.b]);
             return a && b;
         };
         const auto turn = [&](Joint& joint) {
-            if (take(figure_of(joint))) {
+            if (take(figure_of(joint)) && !(with_turns && joint.in_held_tree)) {
                 joint.project_turn(bodies_[joint.a], bodies_[joint.b]);
             }
         };
         const auto solve = [&] {
             for (const JointTree& tree : trees_) {
-                if (take(figure_of(joints_[tree.joints.front()]))) {
-                    solve_points(tree, true);
+                if (!take(figure_of(joints_[tree.joints.front()]))) {
+                    continue;
                 }
+                with_turns&& tree.held ? solve_with_turns(tree, true) : solve_points(tree, true);
             }
         };
         std::for_each(joints_.begin(), joints_.end(), turn);
@@ -328,26 +336,120 @@ private:
         }
     }
 
-    // More of it for figures that hang on what does not move, while limits are exceeded.
+    // More of it for figures that hang on what does not move: turns with their points.
     void relieve_held() {
-        std::vector<bool> held(bodies_.size());
-        for (const Joint& joint : joints_) {
-            if (bodies_[joint.a].moves != bodies_[joint.b].moves) {
-                held[figure_of(joint)] = true;
-            }
-        }
         for (int round = 0; round < 16; ++round) {
             std::vector<bool> strained(bodies_.size());
-            for_each_joint([&](const Joint& joint, const Body& a, const Body& b) {
-                const std::size_t figure = figure_of(joint);
-                strained[figure] = strained[figure] ||
-                                   (held[figure] && joint.limits.exceeded(a, b) > Scalar(1) / Scalar(458));
-            });
-            if (std::find(strained.begin(), strained.end(), true) == strained.end()) {
+            bool any = false;
+            for (const JointTree& tree : trees_) {
+                if (tree.held && is_strained(tree, true)) {
+                    strained[figure_of(joints_[tree.joints.front()])] = any = true;
+                }
+            }
+            if (!any) {
                 return;
             }
-            sweep([&](std::size_t figure) { return bool(strained[figure]); });
+            sweep([&](std::size_t figure) { return bool(strained[figure]); }, true);
         }
+    }
+
+    bool is_strained(const JointTree& tree, bool in_substep) const {
+        return std::any_of(tree.joints.begin(), tree.joints.end(), [&](std::size_t i) {
+            const Joint& joint = joints_[i];
+            return joint.strain(bodies_[joint.a], bodies_[joint.b], in_substep) > far_turned;
+        });
+    }
+
+    // Points and turns at once, in this substep or at all.
+    void solve_with_turns(const JointTree& tree, bool in_substep) {
+        if (in_substep) {
+            stiffen_further(tree);
+        }
+        std::vector<HeldRow<Scalar>> rows;
+        std::vector<Scalar> errors;
+        for (const std::size_t i : tree.joints) {
+            Joint& joint = joints_[i];
+            const Vec offset = joint.offset(bodies_[joint.a], bodies_[joint.b]);
+            const Vec error = in_substep ? offset - joint.start : offset;
+            errors.insert(errors.end(), {error.x, error.y, error.z});
+            const std::size_t first = rows.size();
+            joint.add_rows(bodies_[joint.a], bodies_[joint.b], in_substep, rows);
+            std::for_each(rows.begin() + static_cast<std::ptrdiff_t>(first), rows.end(),
+                          [i](HeldRow<Scalar>& row) {
+                              row.joint = i;
+                              row.error = std::clamp(row.error, Scalar(-0.25), Scalar(0.25));
+                          });
+        }
+        const std::size_t points = errors.size();
+        for (const HeldRow<Scalar>& row : rows) {
+            errors.push_back(row.error);
+        }
+        const std::vector<Scalar> pushes = solve_held(motions_of(tree, rows, points), errors, points, rows);
+        clear_pushes(tree);
+        for (std::size_t k = 0; k < tree.joints.size(); ++k) {
+            Joint& joint = joints_[tree.joints[k]];
+            const Vec push{pushes[3 * k], pushes[3 * k + 1], pushes[3 * k + 2]};
+            add_push(joint, push);
+            joint.push = in_substep ? joint.push + push : joint.push;
+        }
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            Joint& joint = joints_[rows[k].joint];
+            add_torque(joint, rows[k].axis * pushes[points + k]);
+            if (in_substep) {
+                joint.keep_push(rows[k], pushes[points + k]);
+            }
+        }
+        move_bodies(tree);
+    }
+
+    void stiffen_further(const JointTree& tree) {
+        for_each_body(tree, [](Body& body) { body.found_load = 0; });
+        for (const std::size_t i : tree.joints) {
+            Joint& joint = joints_[i];
+            joint.raise_tension();
+            joint.add_loads(bodies_[joint.a], bodies_[joint.b]);
+        }
+        for_each_body(tree, [](Body& body) { body.stiffen(); });
+    }
+
+    // How all rows move by pushes in each of them; those of turns a millionth softer.
+    std::vector<Scalar> motions_of(const JointTree& tree, const std::vector<HeldRow<Scalar>>& rows,
+                                   std::size_t points) {
+        const std::size_t size = points + rows.size();
+        std::vector<Scalar> matrix(size * size);
+        for (std::size_t column = 0; column < size; ++column) {
+            clear_pushes(tree);
+            if (column < points) {
+                add_push(joints_[tree.joints[column / 3]],
+                         along_axis(static_cast<int>(column % 3), Scalar(1)));
+            } else {
+                add_torque(joints_[rows[column - points].joint], rows[column - points].axis);
+            }
+            for (std::size_t row = 0; row < size; ++row) {
+                matrix[row * size + column] =
+                    row < points
+                        ? component(point_motion(joints_[tree.joints[row / 3]]), static_cast<int>(row % 3))
+                        : turn_motion(rows[row - points]);
+            }
+            if (column >= points) {
+                const HeldRow<Scalar>& row = rows[column - points];
+                const Joint& joint = joints_[row.joint];
+                const Vec own =
+                    bodies_[joint.a].world_inverse * row.axis + bodies_[joint.b].world_inverse * row.axis;
+                matrix[column * size + column] += row.axis.dot(own) * Scalar(0x1p-20);
+            }
+        }
+        return matrix;
+    }
+
+    Scalar turn_motion(const HeldRow<Scalar>& row) const {
+        const Body& a = bodies_[joints_[row.joint].a];
+        const Body& b = bodies_[joints_[row.joint].b];
+        return row.axis.dot(b.world_inverse * b.torque - a.world_inverse * a.torque);
+    }
+    void add_torque(const Joint& joint, const Vec& push) {
+        bodies_[joint.a].torque = bodies_[joint.a].torque - push;
+        bodies_[joint.b].torque = bodies_[joint.b].torque + push;
     }
 
     void apply_contact_moves() {
@@ -361,7 +463,7 @@ private:
     void factor_points() {
         for_each_joint([](Joint& joint, Body& a, Body& b) { joint.place_levers(a, b); });
         for (Body& body : bodies_) {
-            body.load = 0;
+            body.load = body.found_load = 0;
         }
         for_each_joint([](const Joint& joint, Body& a, Body& b) { joint.add_loads(a, b); });
         for (JointTree& tree : trees_) {
@@ -412,21 +514,26 @@ private:
 
     // To where they were at the substep's start, or together.
     void solve_points(const JointTree& tree, bool to_start) {
+        clear_pushes(tree);
+        for_each_body(tree, [](Body& body) { body.torque = body.carried_torque; });
         std::vector<Scalar> pushes;
         for (const std::size_t i : tree.joints) {
             const Joint& joint = joints_[i];
             const Vec offset = joint.offset(bodies_[joint.a], bodies_[joint.b]);
-            const Vec error = to_start ? offset - joint.start : offset;
+            const Vec error = (to_start ? offset - joint.start : offset) + point_motion(joint);
             pushes.insert(pushes.end(), {-error.x, -error.y, -error.z});
         }
         tree.points.solve(pushes);
-        clear_pushes(tree);
+        for_each_body(tree, [](Body& body) { body.carried_torque = {}; });
         for (std::size_t k = 0; k < tree.joints.size(); ++k) {
             Joint& joint = joints_[tree.joints[k]];
             const Vec push{pushes[3 * k], pushes[3 * k + 1], pushes[3 * k + 2]};
             add_push(joint, push);
             joint.push = to_start ? joint.push + push : joint.push;
         }
+        move_bodies(tree);
+    }
+    void move_bodies(const JointTree& tree) {
         for_each_body(tree, [](Body& body) {
             // Once each.
             Move{body.force * body.inverse_mass, body.world_inverse * body.torque}.apply_to(body);
@@ -440,7 +547,14 @@ private:
     }
 
     void carry_pushes_on() {
-        for_each_joint([](Joint& joint, Body& a, Body& b) { joint.turn_again(a, b); });
+        for_each_joint([](Joint& joint, Body& a, Body& b) {
+            joint.prepare_turn(a, b);
+            if (joint.in_held_tree) {
+                carry_torque(a, b, joint.carried_turn(a, b));
+            } else {
+                joint.turn_again(a, b);
+            }
+        });
         for_each_contact([](Contact& contact, const Body& a, const Body& b) { contact.make_rows(a, b); });
         for (const Contact& contact : contacts_) {
             contact.add_pushes(true, contact_moves_[contact.a]);
@@ -451,6 +565,11 @@ private:
         if (scale_carried_pushes()) {
             solve_points();
         }
+    }
+
+    static void carry_torque(Body& a, Body& b, const Vec& push) {
+        a.carried_torque = a.carried_torque - push;
+        b.carried_torque = b.carried_torque + push;
     }
 
     // Figure by figure. Where one has been changed those that touch it think again.
@@ -471,7 +590,12 @@ private:
             any = true;
             changed[figure] = true;
             for_each_joint([&](Joint& joint, Body& a, Body& b) {
-                if (figure_of(joint) == figure) {
+                if (figure_of(joint) != figure) {
+                    return;
+                }
+                if (joint.in_held_tree) {
+                    carry_torque(a, b, joint.add_to_carried_turn(a, b, shares[figure]));
+                } else {
                     joint.carry_more(a, b, shares[figure]);
                 }
             });
@@ -553,6 +677,9 @@ private:
     // Without giving speed: turns first, then the points. A limit that turns one bone back on its joint takes
     // the points along: some rounds bring both right.
     void undo_errors(const JointTree& tree) {
+        if (tree.held && undo_with_turns(tree)) {
+            return;
+        }
         bool far_off = true;
         for (int round = 0; round < 6 && far_off; ++round) {
             far_off = false;
@@ -568,6 +695,20 @@ private:
         }
     }
 
+    // False: rows that go in turn will do.
+    bool undo_with_turns(const JointTree& tree) {
+        int round = 0;
+        for (; round < 3 && is_strained(tree, false); ++round) {
+            solve_with_turns(tree, false);
+        }
+        if (round > 0) {
+            for_each_body(tree, [](Body& body) { body.orientation = body.orientation.normalised(); });
+            solve_points(tree, false);
+        }
+        return round > 0;
+    }
+
+    static constexpr Scalar far_turned = Scalar(1) / 458; // an eighth of a degree
     Settings settings_;
     Scalar rate_; // substeps a second
     FreeMotion<Scalar> motion_;

@@ -5,6 +5,7 @@
 #include "collide/saturation.h"
 #include "rigid/articulation_algebra.h"
 #include "rigid/body_motion.h"
+#include "rigid/held_tree.h"
 
 namespace lks {
 namespace {
@@ -115,16 +116,20 @@ void factor_joint(RigidScene& scene, ArticulatedJoint& part) {
 }
 
 // A light link under a great tension swings faster than a substep: beyond what a substep can follow it turns
-// as if it were heavier (the diagonal of an implicit geometric stiffness; Andrews, Teichmann, Kry 2017).
-void stiffen(Body& body, std::int64_t load) {
+// as if it were heavier (the diagonal of an implicit geometric stiffness; Andrews, Teichmann, Kry 2017). What
+// the body already turns as heavily for is `before`.
+void stiffen(Body& body, std::int64_t load, std::int64_t before) {
     constexpr std::int64_t followed = std::int64_t{2} << world_fraction_bits;
-    const std::int64_t excess = load - followed;
-    if (excess <= 0) {
+    if (load <= std::max(before, followed)) {
         return;
     }
-    // 1 / (1 + excess)
+    // 1 + what is in excess, 32 fraction bits
+    const auto heaviness = [](std::int64_t pull) {
+        const std::int64_t excess = std::max<std::int64_t>(pull - followed, 0);
+        return (std::int64_t{1} << 32) + (excess >> (world_fraction_bits - 32));
+    };
     const auto left = static_cast<std::int32_t>(
-        (std::int64_t{1} << 62) / ((std::int64_t{1} << 32) + (excess >> (world_fraction_bits - 32))));
+        fixed::multiply_divide(heaviness(before), std::int64_t{1} << 30, heaviness(load)));
     const auto part = [left](std::int32_t c) {
         return static_cast<std::int32_t>(fixed::scale_component(left, c));
     };
@@ -138,14 +143,20 @@ public:
     Tree(RigidScene& scene, const ArticulatedTree& range) : scene_(scene), range_(range) {}
 
     void stiffen_bodies() {
-        for_each_body([](Body&, ArticulatedBody& part) { part.load = 0; });
-        for_each_joint([this](const ArticulatedJoint& part, const Joint& joint) {
-            add_load(part.parent, joint, !part.child_is_a);
-            if (part.child_moves) {
-                add_load(part.child, joint, part.child_is_a);
-            }
+        for_each_body([](Body&, ArticulatedBody& part) {
+            part.load = 0;
+            part.carried_torque = {0, 0, 0};
         });
-        for_each_body([](Body& body, ArticulatedBody& part) { stiffen(body, part.load); });
+        stiffen_by_tensions();
+    }
+
+    // Where joints push more than four times as much as in the substep before. Less may be what another round
+    // takes back, and what is heavier meanwhile turns limits back less.
+    void stiffen_further() {
+        for_each_joint([](const ArticulatedJoint&, Joint& joint) {
+            joint.tension = std::max(joint.tension, sum_of_magnitudes(joint.push) / 4);
+        });
+        stiffen_by_tensions();
     }
 
     void factor() {
@@ -164,15 +175,24 @@ public:
     // use(joint, push) with the push from a to b in the joint's own unit.
     template <typename Error, typename Use>
     void solve(const Error& error, const Use& use) {
-        for_each_body([](Body&, ArticulatedBody& part) {
+        for_each_body([this](const Body& body, ArticulatedBody& part) {
             part.shift = part.turn = part.force = part.torque = {0, 0, 0};
+            if (range_.is_held) {
+                part.turn = own_turn(body, part, part.carried_torque);
+            }
         });
         for_each_joint_back([&](ArticulatedJoint& part) { fold_error(part, error); });
         for_each_joint([&](ArticulatedJoint& part, Joint& joint) {
             const Vec3 push = push_of(part);
             use(joint, multiply_32(part.pair_share, part.child_is_a ? -push : push));
         });
-        for_each_body([](Body& body, ArticulatedBody& part) { apply(body, move_of(body, part)); });
+        for_each_body([this](Body& body, ArticulatedBody& part) {
+            if (range_.is_held) {
+                part.torque = part.torque + part.carried_torque;
+                part.carried_torque = {0, 0, 0};
+            }
+            apply(body, move_of(body, part));
+        });
     }
 
     // True: a limit was far off.
@@ -224,7 +244,21 @@ private:
         }
     }
 
-    // (hω)² of the body's swing across the lever under the joint's pull of the last substep: p/r times
+    void stiffen_by_tensions() {
+        for_each_body([](Body&, ArticulatedBody& part) { part.found_load = 0; });
+        for_each_joint([this](const ArticulatedJoint& part, const Joint& joint) {
+            add_load(part.parent, joint, !part.child_is_a);
+            if (part.child_moves) {
+                add_load(part.child, joint, part.child_is_a);
+            }
+        });
+        for_each_body([](Body& body, ArticulatedBody& part) {
+            stiffen(body, part.found_load, part.load);
+            part.load = std::max(part.load, part.found_load);
+        });
+    }
+
+    // (hω)² of the body's swing across the lever under the joint's tension: p/r times
     // |r|²·tr Ĵ − rᵀĴr, World.
     void add_load(std::uint32_t index, const Joint& joint, bool on_a) {
         const Body& body = scene_.bodies[index];
@@ -236,7 +270,7 @@ private:
         const std::int64_t load =
             fixed::multiply_shift(fixed::multiply_shift(pull, arm.length, world_fraction_bits), arm.across,
                                   30 - body.inverse_shift);
-        std::int64_t& sum = scene_.articulated[index].load;
+        std::int64_t& sum = scene_.articulated[index].found_load;
         sum = std::min(fixed::saturating_add(sum, load), greatest_load);
     }
 
@@ -320,6 +354,10 @@ void solve_articulation(RigidScene& scene, const ArticulatedTree& tree) {
                add_tree_push);
 }
 
+void stiffen_further(RigidScene& scene, const ArticulatedTree& tree) {
+    Tree(scene, tree).stiffen_further();
+}
+
 bool undo_tree_errors(RigidScene& scene, const ArticulatedTree& tree) {
     return Tree(scene, tree).undo_errors();
 }
@@ -330,6 +368,10 @@ void finish_undoing(RigidScene& scene, const ArticulatedTree& tree, bool far_off
 
 void undo_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     Tree all(scene, tree);
+    if (tree.is_held && undo_held_tree(scene, tree)) {
+        all.bring_together();
+        return;
+    }
     const bool far_off = all.undo_errors();
     all.bring_together();
     all.finish_undoing(far_off);

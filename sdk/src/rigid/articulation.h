@@ -26,6 +26,9 @@ void find_articulations(RigidScene& scene);
 void factor_articulation(RigidScene& scene, const ArticulatedTree& tree);
 // Brings back to zero how much the points have parted in this substep, with speed.
 void solve_articulation(RigidScene& scene, const ArticulatedTree& tree);
+// Where it pushes much more in this substep than in the one before: bodies turn yet more heavily. Its factors
+// are to be found again.
+void stiffen_further(RigidScene& scene, const ArticulatedTree& tree);
 // Once velocities are known: all errors of its joints (undo_error, and the points), without giving speed.
 void undo_articulation(RigidScene& scene, const ArticulatedTree& tree);
 

@@ -96,13 +96,21 @@ inline void add_force(ArticulatedBody& body, const fixed::Vec3& lever, const fix
     body.torque = body.torque + cross_32(lever, push);
 }
 
+inline fixed::Vec3 shifted(const fixed::Vec3& v, int up) {
+    return {lks::shifted(v.x, up), lks::shifted(v.y, up), lks::shifted(v.z, up)};
+}
+
+// How a torque turns the body by itself, in its unit.
+inline fixed::Vec3 own_turn(const Body& body, const ArticulatedBody& part, const fixed::Vec3& torque) {
+    return shifted(multiply(body.world_inverse, rounded_share(part.share, torque)), body.inverse_shift);
+}
+
 // What the pushes of its joints do to it, all at once: one by one they may be large, and of the heavy end of
 // a chain only a small rest remains.
 inline Move move_of(const Body& body, const ArticulatedBody& part) {
     const fixed::Vec3 turn = multiply(body.world_inverse, rounded_share(part.share, part.torque));
     const int up = body.inverse_shift - body.scale - 1 + half_turn_fraction_bits - world_fraction_bits;
-    return {rounded_share(part.share, part.force),
-            {shifted(turn.x, up), shifted(turn.y, up), shifted(turn.z, up)}};
+    return {rounded_share(part.share, part.force), shifted(turn, up)};
 }
 
 } // namespace lks::tree_detail

@@ -21,13 +21,16 @@ struct ArticulatedInverse {
 struct ArticulatedBody {
     std::int64_t share; // of the tree's greatest inverse mass
     bool attached;
-    std::int64_t load; // (hω)² of its swing under what pulled at it in the last substep, World
+    std::int64_t load; // (hω)² of its swing under what pulls at it, World: as heavily as that it turns
+    std::int64_t found_load;
     ArticulatedInverse inverse;
     // What the joints beyond it have done to it, and what those towards the root push it.
     fixed::Vec3 shift;
     fixed::Vec3 turn;
     fixed::Vec3 force;
     fixed::Vec3 torque;
+    // Of a held tree: a torque that the next solve begins with, in the tree's unit and the body's.
+    fixed::Vec3 carried_torque;
 };
 
 // Of a 3 × 3 matrix: xx, xy, xz, yy, yz, zz.
@@ -57,6 +60,7 @@ struct ArticulatedTree {
     std::uint32_t body_end;
     std::uint32_t first_joint;
     std::uint32_t joint_end;
+    bool is_held; // by a joint to what does not move
 };
 
 } // namespace lks

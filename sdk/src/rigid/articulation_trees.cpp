@@ -44,7 +44,7 @@ public:
         scene_.tree_joints.clear();
         scene_.trees.clear();
         for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
-            scene_.joints[i].in_tree = false;
+            scene_.joints[i].in_tree = scene_.joints[i].in_held_tree = false;
             if (scene_.joint_slots[i].used && may_be_solved(scene_.joints[i])) {
                 choose(i);
             }
@@ -59,6 +59,7 @@ public:
                 walk(body);
             }
         }
+        static_cast<void>(scene_.held_joints.resize(any_held_ ? scene_.tree_joints.size() : 0)); // its room
     }
 
 private:
@@ -137,8 +138,23 @@ private:
             scene_.articulated[body].share =
                 share_of(scene_.bodies[body].inverse_mass, scene_.bodies[lightest].inverse_mass);
         }
+        const bool held = mark_held(begin_joints);
         scene_.trees.push_reserved({begin, static_cast<std::uint32_t>(scene_.tree_bodies.size()),
-                                    begin_joints, static_cast<std::uint32_t>(scene_.tree_joints.size())});
+                                    begin_joints, static_cast<std::uint32_t>(scene_.tree_joints.size()),
+                                    held});
+        any_held_ = any_held_ || held;
+    }
+
+    // The joints of the tree that begins there, where one of them is to what does not move.
+    bool mark_held(std::size_t joint) {
+        bool held = false;
+        for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
+            held = held || !scene_.tree_joints[i].child_moves;
+        }
+        for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
+            scene_.joints[scene_.tree_joints[i].joint].in_held_tree = held;
+        }
+        return held;
     }
 
     void drop_from(std::size_t body, std::size_t joint) {
@@ -173,6 +189,7 @@ private:
 
     RigidScene& scene_;
     BodyRoots roots_;
+    bool any_held_ = false;
 };
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include "rigid/contact_search.h"
 #include "rigid/figures.h"
+#include "rigid/held_tree.h"
 
 namespace lks {
 namespace {
@@ -106,8 +107,13 @@ public:
     void add(std::int32_t share) {
         for_each(Part::joint, [&](std::uint32_t i) {
             Joint& joint = scene_.joints[i];
-            carry_more(joint, scene_.bodies[joint.description.body_a],
-                       scene_.bodies[joint.description.body_b], share);
+            Body& a = scene_.bodies[joint.description.body_a];
+            Body& b = scene_.bodies[joint.description.body_b];
+            if (joint.in_held_tree) {
+                carry_torque(scene_, joint, add_to_carried_turn(joint, a, b, share));
+            } else {
+                carry_more(joint, a, b, share);
+            }
         });
         for (const Part kind : {Part::contact, Part::shared_contact}) {
             for_each(kind, [&](std::uint32_t i) {

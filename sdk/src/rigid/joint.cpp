@@ -4,6 +4,7 @@
 
 #include "collide/saturation.h"
 #include "rigid/joint_drive.h"
+#include "rigid/joint_frames.h"
 #include "rigid/joint_limits.h"
 #include "rigid/joint_turns.h"
 
@@ -110,11 +111,11 @@ void begin_substep(Joint& joint, const Body& a, const Body& b) {
     begin_turn(joint, a, b);
 }
 
-void warm_start(Joint& joint, Body& a, Body& b) {
+void prepare_pushes(Joint& joint, const Body& a, const Body& b) {
     const JointDescription& d = joint.description;
-    warm_start_turn(joint, a, b);
-    warm_start_limits(joint, a, b);
-    warm_start_drive(joint, a, b);
+    prepare_turn(joint, a, b);
+    prepare_limits(joint);
+    prepare_drive(joint);
     if (!keeps_push(joint)) {
         joint.push = {0, 0, 0};
     }
@@ -124,22 +125,40 @@ void warm_start(Joint& joint, Body& a, Body& b) {
         joint.side_a = block_side(a, joint.constants.shares.a, fixed::rotate(a.rotation, d.point_a), k);
         joint.side_b = block_side(b, joint.constants.shares.b, fixed::rotate(b.rotation, d.point_b), k);
         joint.inverse = invert_block(k);
-        if (!joint.in_tree) {
-            push_apart(joint, a, b, joint.push);
-        }
+    }
+}
+
+void carry_pushes_on(const Joint& joint, Body& a, Body& b) {
+    carry_turn_on(joint, a, b);
+    carry_limits_on(joint, a, b);
+    carry_drive_on(joint, a, b);
+    if (joint.description.kind != LKS_JOINT_DISTANCE && !joint.in_tree) {
+        push_apart(joint, a, b, joint.push);
     }
 }
 
 void carry_more(Joint& joint, Body& a, Body& b, std::int32_t share) {
-    carry_more_turn(joint, a, b, share);
+    turn_apart(joint, a, b, add_to_turn(joint, share));
     carry_more_limits(joint, a, b, share);
-    carry_more_drive(joint, a, b, share);
+    turn_apart(joint, a, b, add_to_drive(joint, share));
     if (keeps_push(joint) && !joint.in_tree) {
         const Vec3 more = fixed::scaled(share, joint.push);
         joint.push = joint.push + more;
         clamp_vector(joint.push, greatest_push);
         push_apart(joint, a, b, more);
     }
+}
+
+Vec3 carried_turn(const Joint& joint, const Body& a, const Body& b) {
+    return joint.turn + limit_push(joint, a, b) + joint.grip;
+}
+
+Vec3 add_to_carried_turn(Joint& joint, const Body& a, const Body& b, std::int32_t share) {
+    const Vec3 before = carried_turn(joint, a, b);
+    add_to_turn(joint, share);
+    add_to_limits(joint, share);
+    add_to_drive(joint, share);
+    return carried_turn(joint, a, b) - before;
 }
 
 void add_up_pushes(Joint& joint, const Body& a, const Body& b) {

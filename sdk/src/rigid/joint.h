@@ -120,9 +120,10 @@ struct Joint : JointState {
 
     // Of the tick: its points are solved with those of its tree (rigid/articulation.h).
     bool in_tree;
+    bool in_held_tree; // and what it turns is, where a tree is held (rigid/held_tree.h)
 
     // Of the substep.
-    std::int64_t tension;     // how much it pushed in the one before: World
+    std::int64_t tension;     // how much it pushed in the one before, or since: World
     fixed::Vec3 begin;        // how far the points were apart at its beginning
     fixed::Vec3 start;        // what of it is to be kept
     fixed::Vec3 turn_start;   // how far a hinge's or a fixed joint's frames are turned at its beginning
@@ -150,10 +151,16 @@ void forget_pushes(Joint& joint);
 
 // Before the bodies are predicted.
 void begin_substep(Joint& joint, const Body& a, const Body& b);
-// Once they are: K, and the pushes of the substep before.
-void warm_start(Joint& joint, Body& a, Body& b);
+// Once they are: K, and what of the pushes of the substep before is carried on.
+void prepare_pushes(Joint& joint, const Body& a, const Body& b);
+// Pushes them.
+void carry_pushes_on(const Joint& joint, Body& a, Body& b);
 // Adds a share of what is carried on, 30 fraction bits, -1 .. 1.
 void carry_more(Joint& joint, Body& a, Body& b, std::int32_t share);
+// The same of one in a held tree, which pushes nothing by itself: what turns b against a, and what is added
+// to it.
+fixed::Vec3 carried_turn(const Joint& joint, const Body& a, const Body& b);
+fixed::Vec3 add_to_carried_turn(Joint& joint, const Body& a, const Body& b, std::int32_t share);
 void project(Joint& joint, Body& a, Body& b);
 
 // Once velocities are known.

@@ -81,7 +81,7 @@ void aim_motor(Joint& joint, const Body& a, const Body& b) {
     }
 }
 
-void warm_start_drive(Joint& joint, Body& a, Body& b) {
+void prepare_drive(Joint& joint) {
     joint.drag = {0, 0, 0};
     if (joint.constants.grip == 0) {
         joint.grip = {0, 0, 0};
@@ -91,13 +91,18 @@ void warm_start_drive(Joint& joint, Body& a, Body& b) {
         const std::int32_t kept = direction_one - 2 * joint.constants.motor_share;
         joint.grip = fixed::scaled(kept, joint.grip);
     }
-    turn_apart(joint, a, b, joint.grip);
 }
 
-void carry_more_drive(Joint& joint, Body& a, Body& b, std::int32_t share) {
+void carry_drive_on(const Joint& joint, Body& a, Body& b) {
+    if (joint.constants.grip != 0) {
+        turn_apart(joint, a, b, joint.grip);
+    }
+}
+
+Vec3 add_to_drive(Joint& joint, std::int32_t share) {
     const Vec3 before = joint.grip;
     joint.grip = within_grip(joint, before + fixed::scaled(share, before));
-    turn_apart(joint, a, b, joint.grip - before);
+    return joint.grip - before;
 }
 
 void project_drive(Joint& joint, Body& a, Body& b) {

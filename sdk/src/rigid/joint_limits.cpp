@@ -40,19 +40,23 @@ struct Swing {
     std::int64_t limit;
 };
 
-// False: certainly within the limit.
-bool find_swing(const Joint& joint, const Body& a, const Body& b, Swing& swing) {
+Swing measure_swing(const Joint& joint, const Body& a, const Body& b) {
     const auto [u, v] = axes_of(joint, a, b);
-    const std::int32_t cosine = fixed::dot(u, v);
-    if (cosine >= joint.constants.swing_cosine && joint.swing_push == 0) {
-        return false;
-    }
     fixed::NormalisedVector way{};
     if (!fixed::normalise(sines(u, v), way)) {
         fixed::normalise(fixed::some_across(u), way);
         way.length = 0;
     }
-    swing = {way.direction, fixed::angle_of(way.length, cosine), swing_limit(joint.constants, a, v)};
+    return {way.direction, fixed::angle_of(way.length, fixed::dot(u, v)), swing_limit(joint.constants, a, v)};
+}
+
+// False: certainly within the limit.
+bool find_swing(const Joint& joint, const Body& a, const Body& b, Swing& swing) {
+    const auto [u, v] = axes_of(joint, a, b);
+    if (fixed::dot(u, v) >= joint.constants.swing_cosine && joint.swing_push == 0) {
+        return false;
+    }
+    swing = measure_swing(joint, a, b);
     return true;
 }
 
@@ -81,13 +85,23 @@ void hold_swing(Joint& joint, Body& a, Body& b) {
     row.apply(-more);
 }
 
-// Where the twist is certainly within its limits nobody need know it. Half the twist is the angle of
-// (q.w, q.y).
+// Where the swing is a half turn.
+bool has_no_twist(const fixed::Rotation& q) {
+    return std::int64_t{q.y} * q.y + std::int64_t{q.w} * q.w < std::int64_t{1} << 50;
+}
+
+// Half the twist is the angle of (q.w, q.y). False: there is none.
+bool measure_twist(const Joint& joint, const Body& a, const Body& b, std::int64_t& twist) {
+    const fixed::Rotation q = relative_rotation(joint, a, b);
+    twist = 2 * fixed::angle_of(q.y, q.w);
+    return !has_no_twist(q);
+}
+
+// Where the twist is certainly within its limits nobody need know it.
 bool find_twist(const Joint& joint, const Body& a, const Body& b, std::int64_t& twist) {
     const fixed::Rotation q = relative_rotation(joint, a, b);
     const JointConstants& c = joint.constants;
-    // Where the swing is a half turn there is no twist.
-    if (std::int64_t{q.y} * q.y + std::int64_t{q.w} * q.w < std::int64_t{1} << 50) {
+    if (has_no_twist(q)) {
         return false;
     }
     // sin(twist/2 − limit/2), times what is left of the swing.
@@ -160,11 +174,13 @@ void begin_limits(Joint& joint, const Body& a, const Body& b) {
     }
 }
 
-void warm_start_limits(Joint& joint, Body& a, Body& b) {
+void prepare_limits(Joint& joint) {
     if (are_soft(joint)) {
         joint.swing_push = joint.twist_push = 0;
-        return;
     }
+}
+
+void carry_limits_on(const Joint& joint, Body& a, Body& b) {
     push_limits(joint, a, b, joint.swing_push, joint.twist_push);
 }
 
@@ -172,6 +188,12 @@ void carry_more_limits(Joint& joint, Body& a, Body& b, std::int32_t share) {
     const std::int64_t swing = fixed::scale_component(share, joint.swing_push);
     const std::int64_t twist = fixed::scale_component(share, joint.twist_push);
     push_limits(joint, a, b, swing, twist);
+    add_to_limits(joint, share);
+}
+
+void add_to_limits(Joint& joint, std::int32_t share) {
+    const std::int64_t swing = fixed::scale_component(share, joint.swing_push);
+    const std::int64_t twist = fixed::scale_component(share, joint.twist_push);
     joint.swing_push = std::min(joint.swing_push + swing, greatest_push);
     joint.twist_push = std::clamp(joint.twist_push + twist, -greatest_push, greatest_push);
 }
@@ -238,6 +260,58 @@ bool undo_limits(const Joint& joint, Body& a, Body& b) {
         }
     }
     return beyond > far_beyond;
+}
+
+std::int64_t beyond_limits(const Joint& joint, const Body& a, const Body& b) {
+    if (are_soft(joint)) {
+        return 0;
+    }
+    const JointConstants& c = joint.constants;
+    std::int64_t beyond = 0;
+    Swing swing{};
+    if (c.swing_limited && find_swing(joint, a, b, swing)) {
+        beyond = swing.angle - swing.limit;
+    }
+    std::int64_t twist = 0;
+    if (c.twist_limited && find_twist(joint, a, b, twist)) {
+        beyond = std::max({beyond, twist - c.twist_max, c.twist_min - twist});
+    }
+    return beyond;
+}
+
+std::uint32_t limit_rows(const Joint& joint, const Body& a, const Body& b, bool in_substep,
+                         HeldRow (&rows)[most_held_rows], std::uint32_t count) {
+    if (are_soft(joint)) {
+        return count;
+    }
+    const JointConstants& c = joint.constants;
+    if (c.swing_limited) {
+        const Swing swing = measure_swing(joint, a, b);
+        const std::int64_t limit = in_substep ? std::max(swing.limit, joint.swing_start) : swing.limit;
+        rows[count++] = {HeldRow::Kind::swing, -swing.axis, limit - swing.angle,
+                         in_substep ? joint.swing_push : 0};
+    }
+    std::int64_t twist = 0;
+    Direction axis{};
+    if (c.twist_limited && measure_twist(joint, a, b, twist) && twist_axis(joint, a, b, axis)) {
+        const std::int64_t push = in_substep ? joint.twist_push : 0;
+        const std::int64_t to_most = (in_substep ? joint.twist_most : c.twist_max) - twist;
+        const std::int64_t to_least = twist - (in_substep ? joint.twist_least : c.twist_min);
+        if (push < 0 || (push == 0 && to_most < to_least)) {
+            rows[count++] = {HeldRow::Kind::most_twist, -axis, to_most, -push};
+        } else {
+            rows[count++] = {HeldRow::Kind::least_twist, axis, to_least, push};
+        }
+    }
+    return count;
+}
+
+void set_limit_push(Joint& joint, HeldRow::Kind kind, std::int64_t push) {
+    if (kind == HeldRow::Kind::swing) {
+        joint.swing_push = push;
+    } else {
+        joint.twist_push = kind == HeldRow::Kind::most_twist ? -push : push;
+    }
 }
 
 } // namespace lks

@@ -6,15 +6,19 @@
 // what is beyond as the error, and its change within the substep damped.
 #pragma once
 
+#include "rigid/held_row.h"
 #include "rigid/joint.h"
 
 namespace lks {
 
 // Before the prediction: how far they let turn.
 void begin_limits(Joint& joint, const Body& a, const Body& b);
-// After it.
-void warm_start_limits(Joint& joint, Body& a, Body& b);
+// After it: what is carried on, and how that is pushed.
+void prepare_limits(Joint& joint);
+void carry_limits_on(const Joint& joint, Body& a, Body& b);
 void carry_more_limits(Joint& joint, Body& a, Body& b, std::int32_t share);
+// The same without a push.
+void add_to_limits(Joint& joint, std::int32_t share);
 void project_limits(Joint& joint, Body& a, Body& b);
 // How they have pushed in this substep.
 fixed::Vec3 limit_push(const Joint& joint, const Body& a, const Body& b);
@@ -22,5 +26,14 @@ fixed::Vec3 limit_push(const Joint& joint, const Body& a, const Body& b);
 std::int64_t exceeded_limits(const Joint& joint, const Body& a, const Body& b);
 // After the velocities: what is left. True: it was more than half a degree.
 bool undo_limits(const Joint& joint, Body& a, Body& b);
+
+// Limits without compliance as rows behind `count` others, of a twist the nearer one: in this substep, or at
+// all. How many there are then.
+std::uint32_t limit_rows(const Joint& joint, const Body& a, const Body& b, bool in_substep,
+                         HeldRow (&rows)[most_held_rows], std::uint32_t count);
+// By how much they are exceeded, in whatever substep: nothing above zero if they are not.
+std::int64_t beyond_limits(const Joint& joint, const Body& a, const Body& b);
+// What such a row has pushed now; not less than zero.
+void set_limit_push(Joint& joint, HeldRow::Kind kind, std::int64_t push);
 
 } // namespace lks

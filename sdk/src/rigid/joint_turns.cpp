@@ -138,7 +138,7 @@ void begin_turn(Joint& joint, const Body& a, const Body& b) {
     }
 }
 
-void warm_start_turn(Joint& joint, Body& a, Body& b) {
+void prepare_turn(Joint& joint, const Body& a, const Body& b) {
     if (!holds_turn(joint)) {
         return;
     }
@@ -153,16 +153,22 @@ void warm_start_turn(Joint& joint, Body& a, Body& b) {
         const Direction axis = fixed::rotate(a.rotation, joint.constants.axis_a);
         joint.turn = joint.turn - fixed::scale(axis, fixed::dot(axis, joint.turn));
     }
-    turn_apart(joint, a, b, joint.turn);
 }
 
-void carry_more_turn(Joint& joint, Body& a, Body& b, std::int32_t share) {
+void carry_turn_on(const Joint& joint, Body& a, Body& b) {
     if (holds_turn(joint) && keeps_turn(joint)) {
-        const Vec3 more = fixed::scaled(share, joint.turn);
-        joint.turn = joint.turn + more;
-        clamp_vector(joint.turn, greatest_push);
-        turn_apart(joint, a, b, more);
+        turn_apart(joint, a, b, joint.turn);
     }
+}
+
+Vec3 add_to_turn(Joint& joint, std::int32_t share) {
+    if (!holds_turn(joint) || !keeps_turn(joint)) {
+        return {0, 0, 0};
+    }
+    const Vec3 more = fixed::scaled(share, joint.turn);
+    joint.turn = joint.turn + more;
+    clamp_vector(joint.turn, greatest_push);
+    return more;
 }
 
 void project_turn(Joint& joint, Body& a, Body& b) {
@@ -179,6 +185,40 @@ void undo_turn(const Joint& joint, Body& a, Body& b) {
     if (holds_turn(joint) && keeps_turn(joint)) {
         turn_apart(joint, a, b, -solve(joint.turn_inverse, angle_of(turned_apart(joint, a, b))));
     }
+}
+
+std::uint32_t turn_rows(const Joint& joint, const Body& a, const Body& b, bool in_substep,
+                        HeldRow (&rows)[most_held_rows]) {
+    if (!holds_turn(joint) || !keeps_turn(joint)) {
+        return 0;
+    }
+    Direction axes[3] = {{direction_one, 0, 0}, {0, direction_one, 0}, {0, 0, direction_one}};
+    std::uint32_t count = 3;
+    if (joint.description.kind == LKS_JOINT_HINGE) {
+        const Direction u = fixed::rotate(a.rotation, joint.constants.axis_a);
+        fixed::NormalisedVector across{};
+        fixed::normalise(fixed::some_across(u), across);
+        const Vec3 third = sines(u, across.direction);
+        axes[0] = across.direction;
+        axes[1] = {static_cast<std::int32_t>(third.x), static_cast<std::int32_t>(third.y),
+                   static_cast<std::int32_t>(third.z)};
+        count = 2;
+    }
+    const Vec3 turned = turned_apart(joint, a, b) - (in_substep ? joint.turn_start : Vec3{0, 0, 0});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        rows[i] = {HeldRow::Kind::turn, axes[i], to_world_angle(fixed::dot(axes[i], turned)), 0};
+    }
+    return count;
+}
+
+std::int64_t turned_away(const Joint& joint, const Body& a, const Body& b, bool in_substep) {
+    HeldRow rows[most_held_rows];
+    const std::uint32_t count = turn_rows(joint, a, b, in_substep, rows);
+    std::int64_t most = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        most = std::max({most, rows[i].error, -rows[i].error});
+    }
+    return most;
 }
 
 } // namespace lks

@@ -12,6 +12,7 @@
 #include "rigid/body_definition.h"
 #include "rigid/contact.h"
 #include "rigid/figure_parts.h"
+#include "rigid/held_tree_parts.h"
 #include "rigid/joint.h"
 #include "rigid/overlaps.h"
 #include "solver/slot.h"
@@ -97,6 +98,7 @@ struct RigidScene {
     Array<ArticulatedJoint> tree_joints; // from the roots on
     Array<ArticulatedBody> articulated;  // by body
     Array<ArticulatedTree> trees;
+    Array<HeldJoint> held_joints; // by tree joint, where a tree is held (rigid/held_tree.h)
     // Of rigid/figures.h.
     Array<std::uint32_t> figures;      // by body: the least index in its figure
     Array<std::uint64_t> figure_parts; // of awake figures, ascending

@@ -7,7 +7,9 @@
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"
 #include "rigid/figures.h"
+#include "rigid/held_tree.h"
 #include "rigid/joint_limits.h"
+#include "rigid/joint_turns.h"
 #include "rigid/particle_contact.h"
 #include "rigid/wide_trees.h"
 #include "solver/object_tick.h"
@@ -195,7 +197,14 @@ void RigidSubstep::carry_pushes_on() {
     in_bundles([this](const FigureBundle& bundle) {
         in_trees(bundle, factor_bundle, factor_articulation);
         for_each_figure(bundle, [this](const FigureRange& figure) {
-            for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::warm_start(joint, a, b); });
+            for_each_joint(figure, [this](Joint& joint, Body& a, Body& b) {
+                prepare_pushes(joint, a, b);
+                if (joint.in_held_tree) {
+                    carry_torque(scene_, joint, carried_turn(joint, a, b));
+                } else {
+                    lks::carry_pushes_on(joint, a, b);
+                }
+            });
         });
     });
     in_contacts([this](Contact& contact) { make_rows(contact, bodies_of(contact)); });
@@ -261,16 +270,38 @@ void RigidSubstep::project_joints(const FigureRange& figure) {
     for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::project(joint, a, b); });
 }
 
+// Held trees with what they hold, and the others' joints by rows.
+void RigidSubstep::solve_strained(const FigureRange& figure) {
+    for_each_joint(figure, [](Joint& joint, Body& a, Body& b) {
+        if (!joint.in_held_tree) {
+            lks::project(joint, a, b);
+        }
+    });
+    solve_strained_trees(figure);
+}
+
+void RigidSubstep::solve_strained_trees(const FigureRange& figure) {
+    for_each_part(scene_, figure, Part::tree, [this](std::uint32_t i) {
+        const ArticulatedTree& tree = scene_.trees[i];
+        if (!tree.is_held || !solve_held_tree(scene_, tree)) {
+            solve_articulation(scene_, tree);
+        }
+    });
+}
+
 void RigidSubstep::project_contacts(const FigureRange& figure) {
     for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) { measure_contact(i); });
     for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) { project_contact(i, false); });
 }
 
-void RigidSubstep::project_back(const FigureRange& figure) {
+void RigidSubstep::project_back(const FigureRange& figure, bool strained) {
     for_each_part_back(scene_, figure, Part::contact, [this](std::uint32_t i) { project_contact(i, true); });
     apply_contact_moves(figure);
-    for_each_part_back(scene_, figure, Part::joint, [this](std::uint32_t i) {
+    for_each_part_back(scene_, figure, Part::joint, [&](std::uint32_t i) {
         Joint& joint = scene_.joints[i];
+        if (strained && joint.in_held_tree) {
+            return; // solved with their tree
+        }
         lks::project(joint, scene_.bodies[joint.description.body_a], scene_.bodies[joint.description.body_b]);
     });
 }
@@ -296,7 +327,7 @@ void RigidSubstep::iterate(std::uint32_t substep) {
         project_contact(shared[i], true);
     }
     in_bundles([this](const FigureBundle& bundle) {
-        for_each_figure(bundle, [this](const FigureRange& figure) { project_back(figure); });
+        for_each_figure(bundle, [this](const FigureRange& figure) { project_back(figure, false); });
         solve_trees(bundle);
     });
     project_attachments();
@@ -330,7 +361,8 @@ void RigidSubstep::mark_exceeded_limits() {
     for (const FigureRange& figure : scene_.figure_ranges) {
         if (figure.is_held) {
             for_each_joint(figure, [&](const Joint& joint, const Body& a, const Body& b) {
-                if (exceeded_limits(joint, a, b) > far) {
+                const std::int64_t turned = joint.in_held_tree ? turned_away(joint, a, b, true) : 0;
+                if (turned > far || exceeded_limits(joint, a, b) > far) {
                     mark_strained(figure_of(scene_.figure_parts[figure.begin()]));
                 }
             });
@@ -367,8 +399,7 @@ void RigidSubstep::relieve_strained() {
             if (bundle.is_wide()) {
                 hand_out_factors(scene_, bundle, number);
             }
-            project_joints(figure);
-            solve_trees(figure);
+            solve_strained(figure);
             project_contacts(figure);
         });
         const Array<std::uint32_t>& shared = scene_.shared_contacts;
@@ -384,8 +415,8 @@ void RigidSubstep::relieve_strained() {
             }
         }
         in_strained([this](const FigureRange& figure, const FigureBundle&, std::uint32_t) {
-            project_back(figure);
-            solve_trees(figure);
+            project_back(figure, true);
+            solve_strained_trees(figure);
         });
     }
 }

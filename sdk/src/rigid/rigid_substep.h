@@ -52,7 +52,9 @@ private:
     void apply_contact_moves(const FigureRange& figure);
     void project_joints(const FigureRange& figure);
     void project_contacts(const FigureRange& figure);
-    void project_back(const FigureRange& figure);
+    void solve_strained(const FigureRange& figure);
+    void solve_strained_trees(const FigureRange& figure);
+    void project_back(const FigureRange& figure, bool strained);
     void iterate(std::uint32_t substep);
     void mark_strained(std::uint32_t body);
     void mark_hard_impacts();

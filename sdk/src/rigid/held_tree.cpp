@@ -1,0 +1,491 @@
+#include "rigid/held_tree.h"
+
+#include <algorithm>
+
+#include "collide/saturation.h"
+#include "rigid/articulation.h"
+#include "rigid/articulation_algebra.h"
+#include "rigid/body_motion.h"
+#include "rigid/joint_limits.h"
+#include "rigid/joint_turns.h"
+
+namespace lks {
+namespace {
+
+using namespace tree_detail;
+using fixed::Vec3;
+
+constexpr std::int64_t one = std::int64_t{1} << tree_fraction_bits;
+constexpr int point_rows = 3;
+
+// Radians, World: what is turned by no more is left to rows that go in turn. An eighth of a degree.
+constexpr std::int64_t far_turned = (std::int64_t{1} << world_fraction_bits) / 458;
+// What is turned by more is turned back in several steps: a quarter.
+constexpr std::int64_t greatest_turn = std::int64_t{1} << (world_fraction_bits - 2);
+// What a limit may be exceeded by for that it need not push.
+constexpr std::int64_t nearly_nothing = (std::int64_t{1} << world_fraction_bits) / 1000000;
+
+// What a push does: a force, and a torque.
+struct Wrench {
+    Vec3 force;
+    Vec3 torque;
+};
+
+Vec3 multiply_mixed(const std::int64_t (&m)[9], const Vec3& v) {
+    return {dot_32({m[0], m[1], m[2]}, v), dot_32({m[3], m[4], m[5]}, v), dot_32({m[6], m[7], m[8]}, v)};
+}
+
+Vec3 multiply_mixed_back(const std::int64_t (&m)[9], const Vec3& v) {
+    return {dot_32({m[0], m[3], m[6]}, v), dot_32({m[1], m[4], m[7]}, v), dot_32({m[2], m[5], m[8]}, v)};
+}
+
+void respond(const ArticulatedInverse& w, const Wrench& push, Vec3& shift, Vec3& turn) {
+    shift = symmetric(w.shift, push.force) + multiply_mixed(w.mixed, push.torque);
+    turn = multiply_mixed_back(w.mixed, push.force) + symmetric(w.turn, push.torque);
+}
+
+std::int64_t along(const Wrench& push, const Vec3& shift, const Vec3& turn) {
+    return plus(dot_32(push.force, shift), dot_32(push.torque, turn));
+}
+
+// W −= (a a^T) / pivot for the column a of L⁻¹Uᵀ.
+void take_out(ArticulatedInverse& w, const Vec3& shift, const Vec3& turn, const Inverse& pivot) {
+    const std::int64_t a[6] = {shift.x, shift.y, shift.z, turn.x, turn.y, turn.z};
+    std::int64_t divided[6];
+    for (int i = 0; i < 6; ++i) {
+        divided[i] = divide(a[i], pivot);
+    }
+    int entry = 0;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = i; j < 3; ++j) {
+            w.shift[entry] = minus(w.shift[entry], lks::multiply_32(divided[i], a[j]));
+            w.turn[entry] = minus(w.turn[entry], lks::multiply_32(divided[3 + i], a[3 + j]));
+            ++entry;
+        }
+        for (int j = 0; j < 3; ++j) {
+            w.mixed[3 * i + j] = minus(w.mixed[3 * i + j], lks::multiply_32(divided[i], a[3 + j]));
+        }
+    }
+}
+
+// Which limits push is exchanged all at once while that makes the wrong ones fewer, and one by one where it
+// doesn't, which comes to an end.
+class Exchange {
+public:
+    // True: all at once.
+    bool is_whole(std::uint32_t wrong) {
+        if (wrong < least_) {
+            least_ = wrong;
+            patience_ = most_patience;
+            return true;
+        }
+        return patience_-- > 0;
+    }
+
+private:
+    static constexpr int most_patience = 3;
+    std::uint32_t least_ = UINT32_MAX;
+    int patience_ = most_patience;
+};
+
+class HeldTree {
+public:
+    HeldTree(RigidScene& scene, const ArticulatedTree& range, bool in_substep)
+        : scene_(scene), range_(range), in_substep_(in_substep) {}
+
+    // False: points are further apart than a step undoes.
+    bool find_rows() {
+        bool near = true;
+        for_each_joint([&](const ArticulatedJoint& part, Joint& joint, HeldJoint& held) {
+            const Body& a = body_a(joint);
+            const Body& b = body_b(joint);
+            held.row_count = turn_rows(joint, a, b, in_substep_, held.rows);
+            held.row_count = limit_rows(joint, a, b, in_substep_, held.rows, held.row_count);
+            for (std::uint32_t i = 0; i < held.row_count; ++i) {
+                HeldRow& row = held.rows[i];
+                row.error = std::clamp(row.error, -greatest_turn, greatest_turn);
+                held.pushes[i] = !row.is_limit() || row.error < 0 || row.push > 0;
+                held.child_axes[i] = axis_in_units(part.child, joint, row.axis);
+                held.parent_axes[i] = axis_in_units(part.parent, joint, row.axis);
+                const std::int64_t by_child =
+                    part.child_moves ? own_turn_about(part.child, held.child_axes[i]) : 0;
+                held.softness[i] = plus(by_child, own_turn_about(part.parent, held.parent_axes[i])) >> 20;
+            }
+            Vec3 apart = joint_offset(joint, a, b) - (in_substep_ ? joint.start : Vec3{0, 0, 0});
+            const Vec3 whole = apart;
+            clamp_vector(apart, greatest_step);
+            near = near && apart == whole;
+            held.error = part.child_is_a ? -apart : apart;
+        });
+        return near;
+    }
+
+    // By more than rows that go in turn should have to undo.
+    bool is_far_turned() {
+        bool far = false;
+        for_each_joint([&](const ArticulatedJoint&, const Joint& joint, const HeldJoint&) {
+            const Body& a = body_a(joint);
+            const Body& b = body_b(joint);
+            far = far || turned_away(joint, a, b, false) > far_turned ||
+                  beyond_limits(joint, a, b) > far_turned;
+        });
+        return far;
+    }
+
+    void solve() {
+        constexpr int most_passes = 24;
+        Exchange exchange;
+        for (int pass = 0; pass < most_passes; ++pass) {
+            factor();
+            find_pushes();
+            const std::uint32_t wrong = count_wrong();
+            if (wrong == 0 || pass + 1 == most_passes) {
+                break;
+            }
+            turn_round(exchange.is_whole(wrong) ? wrong : 1);
+        }
+        push();
+    }
+
+    void make_units() {
+        for_each_body(
+            [](Body& body, const ArticulatedBody&) { body.orientation = normalise(body.orientation); });
+    }
+
+private:
+    template <typename Use>
+    void for_each_body(const Use& use) {
+        for (std::uint32_t i = range_.first_body; i < range_.body_end; ++i) {
+            const std::uint32_t index = scene_.tree_bodies[i];
+            use(scene_.bodies[index], scene_.articulated[index]);
+        }
+    }
+    template <typename Use>
+    void use_joint(std::uint32_t i, const Use& use) {
+        ArticulatedJoint& part = scene_.tree_joints[i];
+        use(part, scene_.joints[part.joint], scene_.held_joints[i]);
+    }
+    // From the root on.
+    template <typename Use>
+    void for_each_joint(const Use& use) {
+        for (std::uint32_t i = range_.first_joint; i < range_.joint_end; ++i) {
+            use_joint(i, use);
+        }
+    }
+    template <typename Use>
+    void for_each_joint_back(const Use& use) {
+        for (std::uint32_t i = range_.joint_end; i-- > range_.first_joint;) {
+            use_joint(i, use);
+        }
+    }
+
+    Body& body_a(const Joint& joint) { return scene_.bodies[joint.description.body_a]; }
+    Body& body_b(const Joint& joint) { return scene_.bodies[joint.description.body_b]; }
+
+    Vec3 axis_in_units(std::uint32_t body, const Joint& joint, const fixed::Direction& axis) {
+        return shifted({axis.x, axis.y, axis.z}, tree_fraction_bits - direction_fraction_bits +
+                                                     joint.constants.reach - scene_.bodies[body].scale);
+    }
+
+    // use(row of the system, row of the joint)
+    template <typename Use>
+    static void for_each_pushing(const HeldJoint& held, const Use& use) {
+        int row = point_rows;
+        for (std::uint32_t i = 0; i < held.row_count; ++i) {
+            if (held.pushes[i]) {
+                use(row++, i);
+            }
+        }
+    }
+
+    // Of a unit push, row by row; how many.
+    static int find_wrenches(const HeldJoint& held, const Vec3& lever, const Vec3 (&axes)[most_held_rows],
+                             Wrench (&wrenches)[most_rows]) {
+        wrenches[0] = {{one, 0, 0}, {0, lever.z, -lever.y}};
+        wrenches[1] = {{0, one, 0}, {-lever.z, 0, lever.x}};
+        wrenches[2] = {{0, 0, one}, {lever.y, -lever.x, 0}};
+        int count = point_rows;
+        for_each_pushing(held, [&](int row, std::uint32_t i) {
+            wrenches[row] = {{0, 0, 0}, axes[i]};
+            count = row + 1;
+        });
+        return count;
+    }
+
+    void factor() {
+        for_each_body(
+            [](Body& body, ArticulatedBody& part) { part.inverse = own_inverse(body, part.share); });
+        for_each_joint_back([this](const ArticulatedJoint& part, const Joint&, HeldJoint& held) {
+            factor_joint(part, held);
+            if (&part != &scene_.tree_joints[range_.first_joint]) {
+                fold_in(scene_.articulated[part.parent].inverse, held);
+            }
+        });
+    }
+
+    void factor_joint(const ArticulatedJoint& part, HeldJoint& held) {
+        std::int64_t d[most_rows][most_rows] = {};
+        Wrench wrenches[most_rows];
+        if (part.child_moves) {
+            held.system.count = find_wrenches(held, part.child_lever, held.child_axes, wrenches);
+            add_motions(scene_.articulated[part.child].inverse, wrenches, held, d);
+        }
+        held.system.count = find_wrenches(held, part.parent_lever, held.parent_axes, wrenches);
+        add_motions(scene_.articulated[part.parent].inverse, wrenches, held, d);
+        // Where two rows ask for the same, or for what nothing is left to move for, neither pushes without
+        // bounds: by a millionth of what their bones by themselves give way they are soft.
+        for_each_pushing(
+            held, [&](int row, std::uint32_t i) { d[row][row] = plus(d[row][row], held.softness[i]); });
+        lks::factor(d, held.system);
+    }
+
+    // How a torque about an axis turns the body by itself, about that axis.
+    std::int64_t own_turn_about(std::uint32_t body, const Vec3& axis) const {
+        return dot_32(axis, own_turn(scene_.bodies[body], scene_.articulated[body], axis));
+    }
+
+    // Adds how rows move by pushes in each of them; leaves the columns of the body that comes last.
+    static void add_motions(const ArticulatedInverse& inverse, const Wrench (&wrenches)[most_rows],
+                            HeldJoint& held, std::int64_t (&d)[most_rows][most_rows]) {
+        for (int j = 0; j < held.system.count; ++j) {
+            respond(inverse, wrenches[j], held.column_shift[j], held.column_turn[j]);
+            for (int i = j; i < held.system.count; ++i) {
+                d[i][j] = plus(d[i][j], along(wrenches[i], held.column_shift[j], held.column_turn[j]));
+            }
+        }
+    }
+
+    static void fold_in(ArticulatedInverse& inverse, const HeldJoint& held) {
+        Vec3 shift[most_rows];
+        Vec3 turn[most_rows];
+        for (int i = 0; i < held.system.count; ++i) {
+            shift[i] = held.column_shift[i];
+            turn[i] = held.column_turn[i];
+            for (int k = 0; k < i; ++k) {
+                shift[i] = shift[i] - multiply_32(held.system.lower[i][k], shift[k]);
+                turn[i] = turn[i] - multiply_32(held.system.lower[i][k], turn[k]);
+            }
+            take_out(inverse, shift[i], turn[i], held.system.pivots[i]);
+        }
+    }
+
+    // A turning push about the axis of a row, b against a, on the child and the parent.
+    void add_torque(const ArticulatedJoint& part, const HeldJoint& held, std::uint32_t row,
+                    std::int64_t push) {
+        Vec3& parent = scene_.articulated[part.parent].torque;
+        parent = parent - multiply_32(push, held.parent_axes[row]);
+        if (part.child_moves) {
+            Vec3& child = scene_.articulated[part.child].torque;
+            child = child + multiply_32(push, held.child_axes[row]);
+        }
+    }
+
+    // From b against a to child against parent, and back.
+    static std::int64_t of_child(const ArticulatedJoint& part, std::int64_t value) {
+        return part.child_is_a ? -value : value;
+    }
+    // What the row has pushed until now, in the tree's unit; and a push there, as the joint has it.
+    static std::int64_t pushed(const ArticulatedJoint& part, const Joint& joint, const HeldRow& row) {
+        return divide(lks::shifted(row.push, joint.constants.reach), invert_pivot(part.pair_share));
+    }
+    static std::int64_t joint_push(const ArticulatedJoint& part, const Joint& joint, std::int64_t push) {
+        return lks::shifted(lks::multiply_32(part.pair_share, of_child(part, push)), -joint.constants.reach);
+    }
+    static std::int64_t row_error(const ArticulatedJoint& part, const Joint& joint, const HeldRow& row) {
+        return of_child(part, lks::shifted(row.error, joint.constants.reach));
+    }
+
+    // Of all rows that push. Limits that don't take back what they have pushed.
+    void find_pushes() {
+        for_each_body([](Body&, ArticulatedBody& part) { part.force = part.torque = {0, 0, 0}; });
+        for_each_joint([this](const ArticulatedJoint& part, const Joint& joint, const HeldJoint& held) {
+            for (std::uint32_t i = 0; i < held.row_count; ++i) {
+                if (!held.pushes[i] && held.rows[i].push != 0) {
+                    add_torque(part, held, i, of_child(part, -pushed(part, joint, held.rows[i])));
+                }
+            }
+        });
+        for_each_body([](const Body& body, ArticulatedBody& part) {
+            part.shift = {0, 0, 0};
+            part.carried_torque = part.torque;
+            part.turn = own_turn(body, part, part.torque);
+            part.torque = {0, 0, 0};
+        });
+        for_each_joint_back([this](const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
+            fold_errors(part, joint, held);
+        });
+        for_each_joint(
+            [this](const ArticulatedJoint& part, const Joint&, HeldJoint& held) { hand_down(part, held); });
+        for_each_body([](const Body& body, ArticulatedBody& part) {
+            part.torque = part.torque + part.carried_torque;
+            part.carried_torque = {0, 0, 0};
+            part.shift = rounded_share(part.share, part.force);
+            part.turn = own_turn(body, part, part.torque);
+        });
+    }
+
+    // How far a row of turning moves by what its bodies have been done.
+    std::int64_t turned(const ArticulatedJoint& part, const HeldJoint& held, std::uint32_t row) const {
+        const std::int64_t by_child =
+            part.child_moves ? dot_32(held.child_axes[row], scene_.articulated[part.child].turn) : 0;
+        return minus(by_child, dot_32(held.parent_axes[row], scene_.articulated[part.parent].turn));
+    }
+
+    void fold_errors(const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
+        ArticulatedBody& parent = scene_.articulated[part.parent];
+        Vec3 points = held.error - point_motion(parent, part.parent_lever);
+        if (part.child_moves) {
+            points = points + point_motion(scene_.articulated[part.child], part.child_lever);
+        }
+        std::int64_t left[most_rows] = {points.x, points.y, points.z};
+        for_each_pushing(held, [&](int row, std::uint32_t i) {
+            left[row] = plus(row_error(part, joint, held.rows[i]), turned(part, held, i));
+        });
+        lks::solve(held.system, left);
+        for (int row = 0; row < held.system.count; ++row) {
+            held.push[row] = std::clamp(minus(0, left[row]), -greatest_push, greatest_push);
+            parent.shift = parent.shift - multiply_32(held.push[row], held.column_shift[row]);
+            parent.turn = parent.turn - multiply_32(held.push[row], held.column_turn[row]);
+        }
+    }
+
+    // With what the joints towards the root push the parent.
+    void hand_down(const ArticulatedJoint& part, HeldJoint& held) {
+        ArticulatedBody& parent = scene_.articulated[part.parent];
+        std::int64_t more[most_rows];
+        for (int row = 0; row < held.system.count; ++row) {
+            more[row] = plus(dot_32(held.column_shift[row], parent.force),
+                             dot_32(held.column_turn[row], parent.torque));
+        }
+        lks::solve(held.system, more);
+        for (int row = 0; row < held.system.count; ++row) {
+            held.push[row] = std::clamp(plus(held.push[row], more[row]), -greatest_push, greatest_push);
+        }
+        const Vec3 push = point_push(held);
+        add_force(parent, part.parent_lever, -push);
+        if (part.child_moves) {
+            add_force(scene_.articulated[part.child], part.child_lever, push);
+        }
+        for_each_pushing(held, [&](int row, std::uint32_t i) { add_torque(part, held, i, held.push[row]); });
+    }
+
+    static Vec3 point_push(const HeldJoint& held) { return {held.push[0], held.push[1], held.push[2]}; }
+
+    // use(held, row): limits that pull, or that don't push and are exceeded.
+    template <typename Use>
+    void for_each_wrong(const Use& use) {
+        for_each_joint_back([&](const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
+            bool wrong[most_held_rows] = {};
+            for_each_pushing(held, [&](int row, std::uint32_t i) {
+                wrong[i] = held.rows[i].is_limit() &&
+                           held.rows[i].push + joint_push(part, joint, held.push[row]) < 0;
+            });
+            for (std::uint32_t i = 0; i < held.row_count; ++i) {
+                if (!held.pushes[i]) {
+                    const std::int64_t error =
+                        plus(row_error(part, joint, held.rows[i]), turned(part, held, i));
+                    wrong[i] = of_child(part, error) < -lks::shifted(nearly_nothing, joint.constants.reach);
+                }
+                if (wrong[i]) {
+                    use(held, i);
+                }
+            }
+        });
+    }
+
+    std::uint32_t count_wrong() {
+        std::uint32_t count = 0;
+        for_each_wrong([&](HeldJoint&, std::uint32_t) { ++count; });
+        return count;
+    }
+
+    // The first `count` of them.
+    void turn_round(std::uint32_t count) {
+        for_each_wrong([&](HeldJoint& held, std::uint32_t i) {
+            if (count > 0) {
+                held.pushes[i] = !held.pushes[i];
+                --count;
+            }
+        });
+    }
+
+    void push() {
+        for_each_body([](Body& body, const ArticulatedBody& part) { apply(body, move_of(body, part)); });
+        if (in_substep_) {
+            for_each_joint([](const ArticulatedJoint& part, Joint& joint, const HeldJoint& held) {
+                keep_pushes(part, joint, held);
+            });
+        }
+    }
+
+    static void keep_pushes(const ArticulatedJoint& part, Joint& joint, const HeldJoint& held) {
+        const Vec3 push = point_push(held);
+        add_tree_push(joint, multiply_32(part.pair_share, part.child_is_a ? -push : push));
+        for (std::uint32_t i = 0; i < held.row_count; ++i) {
+            if (!held.pushes[i]) {
+                set_limit_push(joint, held.rows[i].kind, 0);
+            }
+        }
+        for_each_pushing(held, [&](int row, std::uint32_t i) {
+            const std::int64_t more = joint_push(part, joint, held.push[row]);
+            if (held.rows[i].is_limit()) {
+                set_limit_push(joint, held.rows[i].kind,
+                               std::clamp<std::int64_t>(held.rows[i].push + more, 0, greatest_push));
+            } else {
+                joint.turn = joint.turn + fixed::scale(held.rows[i].axis, more);
+                clamp_vector(joint.turn, greatest_push);
+            }
+        });
+    }
+
+    RigidScene& scene_;
+    const ArticulatedTree& range_;
+    bool in_substep_;
+};
+
+} // namespace
+
+void carry_torque(RigidScene& scene, const Joint& joint, const Vec3& push) {
+    ArticulatedBody& a = scene.articulated[joint.description.body_a];
+    ArticulatedBody& b = scene.articulated[joint.description.body_b];
+    const Body& body_a = scene.bodies[joint.description.body_a];
+    const Body& body_b = scene.bodies[joint.description.body_b];
+    const std::int64_t share = std::max(body_a.is_awake() ? a.share : 0, body_b.is_awake() ? b.share : 0);
+    const Inverse inverse = invert_pivot(share);
+    const auto torque = [&](const Body& body) {
+        const Vec3 own = shifted(push, 2 * joint.constants.reach - body.scale);
+        return Vec3{divide(own.x, inverse), divide(own.y, inverse), divide(own.z, inverse)};
+    };
+    if (body_a.is_awake()) {
+        a.carried_torque = a.carried_torque - torque(body_a);
+    }
+    if (body_b.is_awake()) {
+        b.carried_torque = b.carried_torque + torque(body_b);
+    }
+}
+
+bool solve_held_tree(RigidScene& scene, const ArticulatedTree& tree) {
+    stiffen_further(scene, tree);
+    HeldTree held(scene, tree, true);
+    if (!held.find_rows()) {
+        return false;
+    }
+    held.solve();
+    return true;
+}
+
+bool undo_held_tree(RigidScene& scene, const ArticulatedTree& tree) {
+    constexpr int most_rounds = 3;
+    HeldTree held(scene, tree, false);
+    bool done = false;
+    for (int round = 0; round < most_rounds && held.is_far_turned() && held.find_rows(); ++round) {
+        held.solve();
+        done = true;
+    }
+    if (done) {
+        held.make_units();
+    }
+    return done;
+}
+
+} // namespace lks

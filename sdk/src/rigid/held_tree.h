@@ -1,0 +1,32 @@
+// Trees of joints that are held by something that does not move: points, hinges' and fixed joints' axes and
+// limits solved all at once.
+//
+// A row of a limit knows the masses of its two bones. Where all of a figure hangs on a hand that is led, the
+// limits of the wrist would have to push a forearm of a kilogram with what turns eighty, and rows that go in
+// turn with the points (rigid/rigid_substep.h) come there slowly: meanwhile the forearm, pushed by itself,
+// turns by more than a substep can follow, and throws the figure about (up to 1.8 MJ). So here
+//   - what turned in the last substep is carried on as a torque, which the points' solve begins with: nothing
+//     is turned by itself;
+//   - where limits are exceeded all the same, and where errors are undone, the tree is eliminated as in
+//     rigid/articulation.h, with the rows of what does not turn beside those of the points, three to six a
+//     joint. Which limits push is found by exchanging those that would pull for those that would be exceeded
+//     (block principal pivoting; Júdice and Pires 1994), a few passes as a rule.
+//
+// Errors of turns, and their pushes, count as lengths at the joint's reach (rigid/pair.h).
+#pragma once
+
+#include "rigid/rigid_scene.h"
+
+namespace lks {
+
+// A turning push of a joint's, World, with the next solve of its points.
+void carry_torque(RigidScene& scene, const Joint& joint, const fixed::Vec3& push);
+
+// Brings back to zero how much points have parted and what must not turn has turned in this substep, with
+// speed. False: points are further apart than can be told which way to turn, and nothing was done.
+bool solve_held_tree(RigidScene& scene, const ArticulatedTree& tree);
+
+// Once velocities are known: all errors, without giving speed. False: they are small, and nothing was done.
+bool undo_held_tree(RigidScene& scene, const ArticulatedTree& tree);
+
+} // namespace lks
