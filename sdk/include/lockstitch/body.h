@@ -11,6 +11,7 @@
 #define LOCKSTITCH_BODY_H
 
 #include <lockstitch/collider.h>
+#include <lockstitch/filter.h>
 #include <lockstitch/world.h>
 
 #ifdef __cplusplus
@@ -41,18 +42,6 @@ typedef struct lks_body_shape {
     lks_fixed density;       /* kg/m³, 0.001 .. 100000 */
 } lks_body_shape;
 
-/* Shapes collide where each one's category is in the other's mask; bodies of the same group > 0 always do,
- * of the same group < 0 never. */
-typedef struct lks_filter {
-    uint32_t category;
-    uint32_t mask;
-    int32_t group;
-} lks_filter;
-
-/* The category of all particles of cloths and ropes; their mask is everything. A body whose mask lacks it is
- * not touched by them. */
-#define LKS_CATEGORY_PARTICLES 0x80000000u
-
 typedef struct lks_body_def {
     uint32_t struct_size;      /* set by lks_default_body_def */
     uint32_t kind;             /* an lks_body_kind */
@@ -70,7 +59,7 @@ typedef struct lks_body_def {
     lks_fixed dynamic_friction; /* 0 .. static_friction */
     lks_fixed restitution;      /* 0 .. 1: the share of the normal speed that an impact gives back; of two
                                    surfaces the greater counts */
-    lks_filter filter;
+    lks_filter filter;          /* against bodies, colliders and particles */
 } lks_body_def;
 
 /* Dynamic, at the origin, no shapes yet, friction 0.5 and 0.4, no restitution, category 1, mask of all. */

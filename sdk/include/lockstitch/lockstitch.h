@@ -9,6 +9,7 @@
 #include <lockstitch/body.h>
 #include <lockstitch/collider.h>
 #include <lockstitch/event.h>
+#include <lockstitch/filter.h>
 #include <lockstitch/fixed.h>
 #include <lockstitch/joint.h>
 #include <lockstitch/object.h>

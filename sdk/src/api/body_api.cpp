@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "api/body_checks.h"
+#include "collide/filter.h"
 #include "collide/saturation.h"
 #include "rigid/body_motion.h"
 #include "rigid/make_body.h"
@@ -86,7 +87,7 @@ lks_body_def lks_default_body_def(void) {
     def.gravity_factor = LKS_FIXED_ONE;
     def.static_friction = LKS_FIXED_RATIO(1, 2);
     def.dynamic_friction = LKS_FIXED_RATIO(4, 10);
-    def.filter = {1, 0xffffffffu, 0};
+    def.filter = default_filter;
     return def;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collide/filter.h"
 #include "collide/plane_motion.h"
 #include "collide/saturation.h"
 #include "collide/trace.h"
@@ -69,7 +70,7 @@ private:
             const lks_body_id id{i, scene.body_slots[i].generation};
             const bool ignored =
                 query_.ignored.index == id.index && query_.ignored.generation == id.generation;
-            if (!scene.body_slots[i].used || (d.filter.category & query_.mask) == 0 || ignored ||
+            if (!scene.body_slots[i].used || !is_asked_for(d.filter, query_.mask) || ignored ||
                 !around(scene.bodies[i].position, d.radius).overlaps(reach)) {
                 continue;
             }

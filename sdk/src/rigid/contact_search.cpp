@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "collide/filter.h"
 #include "collide/plane_motion.h"
 #include "collide/saturation.h"
 #include "rigid/sleep.h"
@@ -278,12 +279,7 @@ private:
         if (std::binary_search(scene_.jointed.begin(), scene_.jointed.end(), std::uint64_t{a} << 32 | b)) {
             return false;
         }
-        const lks_filter& p = scene_.descriptions[a].filter;
-        const lks_filter& q = scene_.descriptions[b].filter;
-        if (p.group == q.group && p.group != 0) {
-            return p.group > 0;
-        }
-        return (p.category & q.mask) != 0 && (q.category & p.mask) != 0;
+        return filters_meet(scene_.descriptions[a].filter, scene_.descriptions[b].filter);
     }
 
     // What is found does not depend on what is added, so that it may be found in any order. False: there is

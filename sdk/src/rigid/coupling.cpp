@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collide/filter.h"
 #include "collide/saturation.h"
 
 namespace lks {
@@ -63,8 +64,7 @@ private:
         scene_.overlaps.clear();
         scene_.boxed.clear();
         for (std::uint32_t i = 0; i < scene_.bodies.size(); ++i) {
-            if (scene_.body_slots[i].used &&
-                (scene_.descriptions[i].filter.mask & LKS_CATEGORY_PARTICLES) != 0) {
+            if (scene_.body_slots[i].used && meets_particles(scene_.descriptions[i].filter)) {
                 scene_.overlaps.add(box_of_body(scene_.bodies[i], scene_.descriptions[i]));
                 scene_.boxed.push_reserved(i);
             }
