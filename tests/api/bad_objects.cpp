@@ -236,7 +236,26 @@ TEST_CASE_FIXTURE(Fixture, "collider definitions out of range are refused and ad
         def.static_friction = half;
         def.dynamic_friction = half + half / 2;
     });
+    collider_refused(invalid, "restitution -0.5", [](auto& def) { def.restitution = -half; });
+    collider_refused(invalid, "restitution 1.5", [](auto& def) { def.restitution = LKS_FIXED_ONE + half; });
+    collider_refused(invalid, "restitution", [](auto& def) { def.restitution = LKS_FIXED_ONE + 1; });
     collider_refused(invalid, "8388001", [](auto& def) { def.transform.position.y = LKS_FIXED(8388001); });
+}
+
+TEST_CASE_FIXTURE(Fixture,
+                  "every filter of a collider is a good one, and so is any restitution from 0 to 1") {
+    for (const lks_filter& filter : {lks_filter{0, 0, 0}, lks_filter{4294967295u, 4294967295u, 2147483647},
+                                     lks_filter{1, 0, -2147483647 - 1}}) {
+        for (const lks_fixed restitution : {lks_fixed{0}, lks_fixed{1}, LKS_FIXED_ONE}) {
+            lks_collider_def def = lks_default_collider_def();
+            def.transform = at(50, 50, 50);
+            def.filter = filter;
+            def.restitution = restitution;
+            const std::uint64_t hash = world.hash();
+            world.add(def);
+            CHECK(world.hash() != hash);
+        }
+    }
 }
 
 TEST_CASE_FIXTURE(Fixture, "moves of more than 100 m or 90 degrees a tick are refused") {

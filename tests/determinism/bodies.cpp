@@ -34,7 +34,10 @@ public:
         step.shape = LKS_SHAPE_BOX;
         step.half_extents = fixed(0.5, 0.2, 1);
         step.transform.position = place(0.6, 0.2, 0);
+        step.restitution = fixed(0.5);
+        step.filter.category = 2;
         world.add(step);
+        add_veil();
         add_humanoids();
         for (int i = 0; i < 4; ++i) {
             add_body(world, box_shape(0.2, 0.2, 0.2), place(-2, 0.2 + 0.4 * i, 0));
@@ -88,6 +91,15 @@ private:
     }
 
     lks_vec3 place(double x, double y, double z) const { return offset_ + fixed(x, y, z); }
+
+    // All fall through it but cloth and ropes.
+    void add_veil() {
+        lks_collider_def veil = lks_default_collider_def();
+        veil.radius = fixed(0.15);
+        veil.transform.position = place(-0.3, 0.4, 0.6);
+        veil.filter.mask = LKS_CATEGORY_PARTICLES;
+        world.add(veil);
+    }
 
     void add_humanoids() {
         for (int i = 0; i < 2; ++i) {

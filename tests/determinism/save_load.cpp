@@ -192,6 +192,21 @@ TEST_CASE("the hash sees every part of the state") {
         lks_collider_def def = lks_default_collider_def();
         CHECK(lks_world_remove_collider(s.world, s.world.add(def)) == LKS_OK);
     });
+    // The same collider with another surface, and another filter.
+    const auto collider_variant = [&](auto change) {
+        variant([&](Scene& s) {
+            lks_collider_def def = lks_default_collider_def();
+            change(def);
+            s.world.add(def);
+        });
+    };
+    collider_variant([](lks_collider_def&) {});
+    collider_variant([](lks_collider_def& def) { def.restitution = 1; });
+    collider_variant([](lks_collider_def& def) { def.restitution = LKS_FIXED_ONE; });
+    collider_variant([](lks_collider_def& def) { def.filter.category = 3; });
+    collider_variant([](lks_collider_def& def) { def.filter.mask -= 1; });
+    collider_variant([](lks_collider_def& def) { def.filter.group = 1; });
+    collider_variant([](lks_collider_def& def) { def.filter.group = -1; });
     for (std::size_t i = 0; i < hashes.size(); ++i) {
         for (std::size_t j = i + 1; j < hashes.size(); ++j) {
             INFO("variants " << i << " and " << j);

@@ -1,9 +1,11 @@
 // Who collides with whom.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 
 #include "support/bodies.h"
+#include "support/builders.h"
 
 using namespace support;
 
@@ -28,6 +30,20 @@ const Case cases[] = {
     {"one group above zero, empty masks", {1, 0, 5}, {1, 0, 5}, true},
     {"two groups above zero, empty masks", {1, 0, 5}, {1, 0, 6}, false},
 };
+
+// Each shape with its top at the origin.
+lks_collider_def ground(std::uint32_t shape, const lks_filter& filter) {
+    lks_collider_def def = lks_default_collider_def();
+    def.shape = shape;
+    def.half_length = fixed(0.25);
+    def.transform.position.y = shape == LKS_SHAPE_PLANE     ? 0
+                               : shape == LKS_SHAPE_CAPSULE ? fixed(-0.75)
+                                                            : fixed(-0.5);
+    def.filter = filter;
+    return def;
+}
+
+constexpr std::uint32_t all_shapes[] = {LKS_SHAPE_PLANE, LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE, LKS_SHAPE_BOX};
 
 // Whether two humanoids that drift into each other push each other.
 bool meet(std::int32_t of_bones, std::int32_t of_first, std::int32_t of_second) {
@@ -65,6 +81,79 @@ TEST_CASE("categories, masks and groups say which bodies collide") {
         INFO(c.name);
         const double from_a_to_b = state_of(world, b).position.x - state_of(world, a).position.x;
         CHECK((c.hit ? from_a_to_b > 0.199 : from_a_to_b < -1.999));
+    }
+}
+
+TEST_CASE("categories, masks and groups say which bodies a collider stops") {
+    for (const Case& c : cases) {
+        for (const std::uint32_t shape : all_shapes) {
+            for (const bool body_is_a : {true, false}) {
+                World world(world_def(60, 8));
+                world.add(ground(shape, body_is_a ? c.b : c.a));
+                lks_body_def def = lks_default_body_def();
+                def.filter = body_is_a ? c.a : c.b;
+                const lks_body_id ball = add_body(world, ball_shape(0.1), fixed(0, 0.5, 0), def);
+                world.step(60);
+                INFO(c.name << ", shape " << shape << (body_is_a ? ", body first" : ", collider first"));
+                const double height = state_of(world, ball).position.y;
+                CHECK((c.hit ? std::abs(height - 0.1) < 0.01 : height < -3));
+            }
+        }
+    }
+}
+
+TEST_CASE("a moving collider pushes whom its filter meets, and passes others") {
+    for (const bool meets : {true, false}) {
+        World world(world_def(60, 8));
+        REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
+        const lks_collider_def def = ground(LKS_SHAPE_BOX, {2, meets ? all : ~1u, 0});
+        const lks_collider_id id = world.add(def);
+        const lks_body_id ball = add_body(world, ball_shape(0.1), fixed(0, 0.5, 0));
+        lks_transform place = def.transform;
+        for (int tick = 0; tick < 60; ++tick) {
+            place.position.y += fixed(1) / 30;
+            REQUIRE(lks_collider_move_to(world, id, place) == LKS_OK);
+            world.step();
+        }
+        CHECK(state_of(world, ball).position.y == doctest::Approx(meets ? 2.1 : 0.5).epsilon(0.05));
+    }
+}
+
+TEST_CASE("a collider whose mask lacks the particles' category is not met by cloth and ropes") {
+    const struct {
+        lks_filter filter;
+        bool hit;
+    } filters[] = {{{1, all, 0}, true},
+                   {{1, LKS_CATEGORY_PARTICLES, 0}, true},
+                   {{2, LKS_CATEGORY_PARTICLES, -1}, true},
+                   {{1, all & ~LKS_CATEGORY_PARTICLES, 0}, false},
+                   {{LKS_CATEGORY_PARTICLES, 1, 0}, false},
+                   {{1, 0, 5}, false}};
+    Chain chain;
+    chain.segments = 4;
+    chain.length = 0.2;
+    chain.particle_mass = 0.1;
+    const Asset rope = chain.build();
+    for (const auto& c : filters) {
+        for (const std::uint32_t shape : all_shapes) {
+            // Ropes that are near a body go through the tick together with it.
+            for (const bool beside_body : {false, true}) {
+                World world(world_def(60, 8));
+                lks_collider_def def = ground(shape, c.filter);
+                def.static_friction = def.dynamic_friction = LKS_FIXED(10);
+                world.add(def);
+                if (beside_body) {
+                    lks_body_def post = lks_default_body_def();
+                    post.kind = LKS_BODY_KINEMATIC;
+                    add_body(world, capsule_shape(0.1, 0.3), fixed(0, 0, 0.15), post);
+                }
+                const lks_object_id object = world.add(rope, at(-0.1, 0.3, 0));
+                world.step(60);
+                const double height = world.positions_from(object, {})[2].y;
+                INFO("mask " << c.filter.mask << ", shape " << shape << ": " << height);
+                CHECK((c.hit ? height > -0.1 : height < -3));
+            }
+        }
     }
 }
 

@@ -99,7 +99,8 @@ RigidCollider rigid_collider(const lks_collider_def& def) {
     return {support::metres(def.transform.position),
             rotation_of(def.transform.rotation),
             shape_of(def),
-            {support::metres(def.static_friction), support::metres(def.dynamic_friction), 0}};
+            {support::metres(def.static_friction), support::metres(def.dynamic_friction),
+             support::metres(def.restitution)}};
 }
 
 } // namespace reference

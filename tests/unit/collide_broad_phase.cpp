@@ -120,18 +120,20 @@ TEST_CASE("collide: colliders that are away are no candidates") {
     CHECK(touches(plane(), {500, -50, 0}, {500, -0.9L, 0}, 0));
 }
 
-TEST_CASE("collide: candidates come in ascending order, and only used slots") {
+TEST_CASE(
+    "collide: candidates come in ascending order, only used slots, and only those that meet particles") {
     struct Slot {
         ColliderState collider;
         bool used;
     };
-    Slot slots[6] = {};
-    for (int i = 0; i < 6; ++i) {
+    Slot slots[7] = {};
+    for (int i = 0; i < 7; ++i) {
         slots[i] = {resting(sphere(0.5L), {i == 3 ? Real(40) : Real(0.1L * i), 0, 0}), i != 1};
     }
-    std::uint32_t indices[6] = {};
+    slots[6].collider.filter = {1, ~LKS_CATEGORY_PARTICLES, 0};
+    std::uint32_t indices[7] = {};
     const Bounds bounds = {coordinates({-1, -1, -1}), coordinates({1, 1, 1})};
-    REQUIRE(lks::collect_candidates(slots, 6u, Vec3{0, 0, 0}, bounds, 0, indices) == 4);
+    REQUIRE(lks::collect_candidates(slots, 7u, Vec3{0, 0, 0}, bounds, 0, indices) == 4);
     CHECK(indices[0] == 0);
     CHECK(indices[1] == 2);
     CHECK(indices[2] == 4);

@@ -155,6 +155,7 @@ inline lks::ColliderState resting(const lks::Shape& shape, const Point& position
                                   lks::fixed::Rotation rotation = lks::fixed::identity_rotation()) {
     lks::ColliderState collider{};
     collider.shape = shape;
+    collider.filter = lks::default_filter;
     collider.position = worlds(position);
     collider.target_position = collider.position;
     collider.rotation = rotation;

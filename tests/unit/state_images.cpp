@@ -12,6 +12,7 @@
 #include "state/image.h"
 #include "support/bodies.h"
 #include "support/builders.h"
+#include "support/refusals.h"
 
 using namespace support;
 
@@ -37,6 +38,9 @@ struct Small {
             collider.shape = shape;
             collider.half_length = fixed(0.5);
             collider.half_extents = fixed(1, 1, 1);
+            // The first one has the defaults.
+            collider.restitution = fixed(0.25 * shape);
+            collider.filter.group = static_cast<std::int32_t>(shape);
             world.add(collider);
         }
         add_bodies();
@@ -203,6 +207,33 @@ TEST_CASE("any 64-bit word of an image may be anything behind a right checksum")
     CHECK(accepted > 0);
     CHECK(lks_world_load(small.world, good.data(), good.size()) == LKS_OK);
     CHECK(small.world.save() == good);
+}
+
+TEST_CASE("an image whose collider gives back less than nothing or more than all is refused and names it") {
+    World world(world_def(60, 2));
+    lks_collider_def def = lks_default_collider_def();
+    world.add(def);
+    def.restitution = fixed(0.5);
+    world.add(def);
+    const Image good = world.save();
+    // Of the second one, behind its slot, its kind, filter, shape and friction.
+    const std::size_t place =
+        lks::image_header_size + 2 * lks::image_slot_size + lks::image_collider_size + 16 + 5 * 8 + 2 * 8;
+    for (const lks_fixed restitution : {lks_fixed{-1}, LKS_FIXED_ONE + 1, INT64_MIN, INT64_MAX}) {
+        Image bad = good;
+        put_u64(bad, place, static_cast<std::uint64_t>(restitution));
+        put_right_checksum(bad);
+        check_call_refused(world, LKS_ERROR_CORRUPT_IMAGE, "collider 1",
+                           [&] { return lks_world_load(world, bad.data(), bad.size()); });
+    }
+    const std::uint64_t hash = world.hash();
+    for (const lks_fixed restitution : {lks_fixed{0}, LKS_FIXED_ONE}) {
+        Image other = good;
+        put_u64(other, place, static_cast<std::uint64_t>(restitution));
+        put_right_checksum(other);
+        CHECK(lks_world_load(world, other.data(), other.size()) == LKS_OK);
+        CHECK(world.hash() != hash);
+    }
 }
 
 TEST_CASE("images cut anywhere are refused behind a right checksum and size") {

@@ -1,13 +1,16 @@
-/* Lockstitch: colliders. Static or kinematic shapes that particles cannot enter.
+/* Lockstitch: colliders. Static or kinematic shapes that bodies and particles cannot enter.
  *
  * A particle is kept particle_radius away from every collider. Particles at up to 100 m/s do not pass through
  * a 5 cm plate or a 10 cm ball: a fast particle is traced along its way through the substep (sphere tracing
  * of the exact distance), in the collider's own moving frame. Friction is Coulomb's, static and dynamic. What
  * is inside already, since a collider was put there or another one leaves no room, gets out at 3 m/s.
+ * Bodies (lockstitch/body.h) meet colliders as they meet each other. Restitution is for bodies alone:
+ * particles do not bounce.
  */
 #ifndef LOCKSTITCH_COLLIDER_H
 #define LOCKSTITCH_COLLIDER_H
 
+#include <lockstitch/filter.h>
 #include <lockstitch/world.h>
 
 #ifdef __cplusplus
@@ -37,9 +40,12 @@ typedef struct lks_collider_def {
     lks_vec3 half_extents;      /* metres, 0.001 .. 30 each */
     lks_fixed static_friction;  /* 0 .. 100 */
     lks_fixed dynamic_friction; /* 0 .. static_friction */
+    lks_fixed restitution;      /* 0 .. 1: the share of the normal speed that an impact gives back; of two
+                                   surfaces the greater counts; none to particles */
+    lks_filter filter;          /* against bodies and particles */
 } lks_collider_def;
 
-/* A static sphere of 0.5 m, friction 0.5 and 0.4. */
+/* A static sphere of 0.5 m, friction 0.5 and 0.4, no restitution, category 1, mask of all. */
 LKS_API lks_collider_def lks_default_collider_def(void);
 
 /* Takes the lowest free index. Where a particle touches several colliders at once they act in index order, so
@@ -52,7 +58,7 @@ LKS_API uint32_t lks_world_has_collider(const lks_world* world, lks_collider_id 
 /* Kinematic motion: where the collider is to be at the end of the next tick; it gets there evenly over the
  * substeps and then rests there until the next call. It pushes and drags what it touches. At most 100 m and
  * 90° a tick: further is refused (use lks_collider_set_transform). Beyond 60 m a substep it may jump over
- * particles. */
+ * particles. Of sleeping bodies it wakes those that it touches, and whose filters meet its own. */
 LKS_API lks_result lks_collider_move_to(lks_world* world, lks_collider_id collider, lks_transform target);
 /* Puts it there at once, without a motion. */
 LKS_API lks_result lks_collider_set_transform(lks_world* world, lks_collider_id collider,

@@ -28,6 +28,8 @@ ColliderState make_collider(const lks_collider_def& def) {
     }
     collider.static_friction = def.static_friction;
     collider.dynamic_friction = def.dynamic_friction;
+    collider.restitution = def.restitution;
+    collider.filter = def.filter;
     place_collider(collider, to_vec3(def.transform.position),
                    fixed::normalise(to_rotation(def.transform.rotation)));
     return collider;
@@ -75,6 +77,7 @@ lks_collider_def lks_default_collider_def(void) {
     def.half_extents = {LKS_FIXED_RATIO(1, 2), LKS_FIXED_RATIO(1, 2), LKS_FIXED_RATIO(1, 2)};
     def.static_friction = LKS_FIXED_RATIO(1, 2);
     def.dynamic_friction = LKS_FIXED_RATIO(4, 10);
+    def.filter = default_filter;
     return def;
 }
 

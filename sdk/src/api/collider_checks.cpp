@@ -42,9 +42,10 @@ bool is_near(const fixed::Vec3& a, const fixed::Vec3& b) {
            within(saturating_subtract(a.z, b.z), greatest_move);
 }
 
-bool friction_is_valid(lks_fixed static_friction, lks_fixed dynamic_friction) {
-    return static_friction >= 0 && static_friction <= greatest_friction && dynamic_friction >= 0 &&
-           dynamic_friction <= static_friction;
+bool surface_is_valid(const ColliderState& collider) {
+    return collider.static_friction >= 0 && collider.static_friction <= greatest_friction &&
+           collider.dynamic_friction >= 0 && collider.dynamic_friction <= collider.static_friction &&
+           collider.restitution >= 0 && collider.restitution <= LKS_FIXED_ONE;
 }
 
 bool is_coordinate_size(std::int64_t value, lks_fixed least) {
@@ -102,15 +103,9 @@ lks_result check_collider_def(const lks_world& world, const lks_collider_def& de
     if (result != LKS_OK) {
         return result;
     }
-    if (def.static_friction < 0 || def.static_friction > greatest_friction) {
-        return world.fail(LKS_ERROR_INVALID_ARGUMENT,
-                          out_of_range("static friction", def.static_friction, "", 0, greatest_friction));
-    }
-    if (!friction_is_valid(def.static_friction, def.dynamic_friction)) {
-        return world.fail(LKS_ERROR_INVALID_ARGUMENT,
-                          out_of_range("dynamic friction", def.dynamic_friction, "", 0, def.static_friction));
-    }
-    return LKS_OK;
+    return check_numbers(world, {Number{"static friction", "", def.static_friction, 0, greatest_friction},
+                                 Number{"dynamic friction", "", def.dynamic_friction, 0, def.static_friction},
+                                 Number{"restitution", "", def.restitution, 0, LKS_FIXED_ONE}});
 }
 
 lks_result check_motion(const lks_world& world, const ColliderState& collider, const fixed::Vec3& position,
@@ -133,8 +128,7 @@ lks_result check_motion(const lks_world& world, const ColliderState& collider, c
 }
 
 bool collider_is_valid(const ColliderState& collider) {
-    return shape_is_valid(collider.shape) &&
-           friction_is_valid(collider.static_friction, collider.dynamic_friction) &&
+    return shape_is_valid(collider.shape) && surface_is_valid(collider) &&
            within(from_vec3(collider.position), world_position_limit) &&
            within(from_vec3(collider.target_position), world_position_limit) &&
            is_near(collider.position, collider.target_position) && fixed::is_nearly_unit(collider.rotation) &&

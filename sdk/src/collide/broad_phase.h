@@ -13,14 +13,16 @@ namespace lks {
 bool may_touch(const ColliderState& collider, const fixed::Vec3& origin, const Bounds& bounds,
                std::int64_t margin);
 
-// Writes the indices of those slots that may be touched, in ascending order, and returns their number. A slot
-// has `used` and `collider`; `indices` has room for all.
+// Writes the indices of those slots that particles may touch, in ascending order, and returns their number. A
+// slot has `used` and `collider`; `indices` has room for all.
 template <typename Slot>
 std::uint32_t collect_candidates(const Slot* slots, std::uint32_t count, const fixed::Vec3& origin,
                                  const Bounds& bounds, std::int64_t margin, std::uint32_t* indices) {
     std::uint32_t found = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
-        if (slots[i].used && may_touch(slots[i].collider, origin, bounds, margin)) {
+        const ColliderState& collider = slots[i].collider;
+        if (slots[i].used && meets_particles(collider.filter) &&
+            may_touch(collider, origin, bounds, margin)) {
             indices[found++] = i;
         }
     }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "collide/filter.h"
 #include "collide/shape.h"
 #include "fixed/rotation.h"
 #include "fixed/vector.h"
@@ -18,8 +19,10 @@ struct Bounds; // solver/object.h: low and high corner
 
 struct ColliderState {
     Shape shape;
+    lks_filter filter;
     std::int64_t static_friction;  // World
     std::int64_t dynamic_friction; // World
+    std::int64_t restitution;      // World: for bodies alone
     // At the start of the tick, and at its end. Rotations are normalised.
     fixed::Vec3 position; // World
     fixed::Vec3 target_position;

@@ -270,7 +270,8 @@ private:
     bool may_collide(std::uint32_t a, std::uint32_t b) const {
         const Body& body = scene_.bodies[a];
         if (b >= other_is_collider) {
-            return body.is_dynamic() && (body.is_active() || collider_of(b).moves());
+            return body.is_dynamic() && (body.is_active() || collider_of(b).moves()) &&
+                   filters_meet(scene_.descriptions[a].filter, collider_of(b).filter);
         }
         const Body& other = scene_.bodies[b];
         if ((!body.is_dynamic() && !other.is_dynamic()) || (!body.is_active() && !other.is_active())) {
@@ -367,7 +368,7 @@ private:
             return scene_.descriptions[other].surface;
         }
         const ColliderState& collider = collider_of(other);
-        return {collider.static_friction, collider.dynamic_friction, 0};
+        return {collider.static_friction, collider.dynamic_friction, collider.restitution};
     }
 
     // Whatever of it is pushed, something else of it goes in.

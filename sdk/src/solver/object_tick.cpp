@@ -164,12 +164,9 @@ private:
         }
         const std::int64_t reach = std::min(world_.rate.motion_limit, coordinate_limit / substeps) * substeps;
         grow(bounds, reach);
-        for (std::uint32_t i = 0; i < world_.colliders.size(); ++i) {
-            const ColliderSlot& slot = world_.colliders[i];
-            if (slot.used && may_touch(slot.collider, object_.origin, bounds, asset_.particle_radius)) {
-                candidates_[candidate_count_++] = i;
-            }
-        }
+        candidate_count_ =
+            collect_candidates(world_.colliders.data(), static_cast<std::uint32_t>(world_.colliders.size()),
+                               object_.origin, bounds, asset_.particle_radius, candidates_);
     }
 
     void solve_rope() {

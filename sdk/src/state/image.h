@@ -18,7 +18,7 @@
 namespace lks {
 
 inline constexpr std::uint64_t image_magic = 0x3165746174736b4c; // "Lkstate1" as bytes
-inline constexpr std::uint32_t image_version = 6;
+inline constexpr std::uint32_t image_version = 7;
 
 struct ImageHeader {
     std::uint64_t magic;
@@ -58,7 +58,7 @@ struct ImageObject {
 };
 
 inline constexpr std::size_t image_object_size = 8 + 16 + 8 + 16 + 24;
-inline constexpr std::size_t image_collider_size = 8 + 5 * 8 + 2 * 8 + 2 * 24 + 2 * 16;
+inline constexpr std::size_t image_collider_size = 16 + 5 * 8 + 3 * 8 + 2 * 24 + 2 * 16;
 
 std::size_t image_size(const lks_world& world);
 // Into at least image_size bytes.

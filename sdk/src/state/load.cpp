@@ -75,13 +75,16 @@ Pin read_pin(ByteReader& in) {
 
 ColliderState read_collider(ByteReader& in) {
     ColliderState collider{};
-    const std::uint64_t kind = in.u64();
-    collider.shape.kind = kind > UINT32_MAX ? UINT32_MAX : static_cast<std::uint32_t>(kind);
+    collider.shape.kind = in.u32();
+    collider.filter.category = in.u32();
+    collider.filter.mask = in.u32();
+    collider.filter.group = static_cast<std::int32_t>(in.u32());
     collider.shape.radius = in.i64();
     collider.shape.half_length = in.i64();
     collider.shape.half_extents = read_vector(in);
     collider.static_friction = in.i64();
     collider.dynamic_friction = in.i64();
+    collider.restitution = in.i64();
     collider.position = read_vector(in);
     collider.target_position = read_vector(in);
     collider.rotation = read_rotation(in);

@@ -52,12 +52,16 @@ void write_object(ByteWriter& out, const Object& object) {
 }
 
 void write_collider(ByteWriter& out, const ColliderState& collider) {
-    out.u64(collider.shape.kind);
+    out.u32(collider.shape.kind);
+    out.u32(collider.filter.category);
+    out.u32(collider.filter.mask);
+    out.u32(static_cast<std::uint32_t>(collider.filter.group));
     out.i64(collider.shape.radius);
     out.i64(collider.shape.half_length);
     write_vector(out, collider.shape.half_extents);
     out.i64(collider.static_friction);
     out.i64(collider.dynamic_friction);
+    out.i64(collider.restitution);
     write_vector(out, collider.position);
     write_vector(out, collider.target_position);
     write_rotation(out, collider.rotation);

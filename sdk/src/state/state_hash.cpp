@@ -35,6 +35,13 @@ void add_collider(Hash& hash, const ColliderState& collider, bool local) {
     if (!local) {
         add_vector(hash, collider.position);
     }
+    // A collider that neither throws back nor chooses has the hash that it had before any could.
+    if (collider.restitution != 0 || !is_default_filter(collider.filter)) {
+        hash.add_i64(collider.restitution);
+        hash.add_u32(collider.filter.category);
+        hash.add_u32(collider.filter.mask);
+        hash.add_u32(static_cast<std::uint32_t>(collider.filter.group));
+    }
 }
 
 } // namespace
