@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/bodies.h"
+#include "support/builders.h"
 
 using namespace support;
 
@@ -180,6 +181,41 @@ TEST_CASE("what moves by itself wakes whom it touches") {
         }
         CHECK(state_of(boxes.world, boxes.bodies[0]).position.z > 0.3);
         CHECK(lks_body_is_awake(boxes.world, boxes.bodies[3]) == 0);
+    }
+}
+
+TEST_CASE(
+    "a collider wakes nobody whom its filter excludes: not by moving, nor by coming, going and being put") {
+    for (const bool excluded : {false, true}) {
+        Boxes boxes;
+        REQUIRE(boxes.awake() == 0);
+        const Vector before = state_of(boxes.world, boxes.bodies[0]).position;
+        lks_collider_def def = lks_default_collider_def();
+        def.shape = LKS_SHAPE_BOX;
+        def.transform = at(0, 0.2, -1);
+        if (excluded) {
+            def.filter.mask = LKS_CATEGORY_PARTICLES;
+        }
+        const lks_collider_id collider = boxes.world.add(def);
+        const std::uint32_t woken = excluded ? 0u : 4u;
+        CHECK(boxes.awake() == woken);
+        boxes.world.step(60);
+        REQUIRE(boxes.awake() == 0);
+        for (int tick = 0; tick < 60; ++tick) { // through where the boxes are
+            def.transform.position.z += fixed(0.025);
+            REQUIRE(lks_collider_move_to(boxes.world, collider, def.transform) == LKS_OK);
+            boxes.world.step();
+        }
+        CHECK((boxes.awake() > 0) == !excluded);
+        CHECK((state_of(boxes.world, boxes.bodies[0]).position.z == before.z) == excluded);
+        boxes.world.step(600);
+        REQUIRE(boxes.awake() == 0);
+        REQUIRE(lks_collider_set_transform(boxes.world, collider, at(0, 0.2, -5)) == LKS_OK);
+        CHECK(boxes.awake() == woken);
+        boxes.world.step(600);
+        REQUIRE(boxes.awake() == 0);
+        REQUIRE(lks_world_remove_collider(boxes.world, collider) == LKS_OK);
+        CHECK(boxes.awake() == woken);
     }
 }
 

@@ -105,8 +105,8 @@ LKS_API uint32_t lks_body_get_kind(const lks_world* world, lks_body_id body);
  * second, with all that it touches and is jointed to, is taken out of the simulation until something touches
  * it or the game does something to it: a sleeping pile costs next to nothing. Where nothing touches it that
  * takes two seconds, and where something overlaps by more than 1.5 mm two seconds on the average. Adding,
- * moving or removing a collider, and gravity, wake everybody. 1 while the body is awake; 0 for a kinematic
- * body and a stale id. */
+ * placing or removing a collider wakes all whose filters meet its own, gravity everybody. 1 while the body is
+ * awake; 0 for a kinematic body and a stale id. */
 LKS_API uint32_t lks_body_is_awake(const lks_world* world, lks_body_id body);
 /* With its island, from the next tick on. */
 LKS_API lks_result lks_body_wake(lks_world* world, lks_body_id body);

@@ -113,7 +113,7 @@ lks_result lks_world_add_collider(lks_world* world, const lks_collider_def* def,
     ColliderSlot& slot = world->colliders[index];
     slot.collider = make_collider(*def);
     slot.used = true;
-    wake_all(world->rigid);
+    wake_who_meets(world->rigid, def->filter);
     *collider = {index, slot.generation};
     return LKS_OK;
 }
@@ -127,7 +127,7 @@ lks_result lks_world_remove_collider(lks_world* world, lks_collider_id collider)
     }
     ColliderSlot& slot = world->colliders[collider.index];
     slot.used = false;
-    wake_all(world->rigid);
+    wake_who_meets(world->rigid, slot.collider.filter);
     world->rigid.forget_contacts(collider.index | other_is_collider);
     slot.collider = ColliderState{};
     slot.generation = next_generation(slot.generation);
@@ -159,7 +159,7 @@ lks_result lks_collider_set_transform(lks_world* world, lks_collider_id collider
     if (ColliderState* found = require_collider(world, collider, transform, result)) {
         place_collider(*found, to_vec3(transform.position),
                        fixed::normalise(to_rotation(transform.rotation)));
-        wake_all(world->rigid);
+        wake_who_meets(world->rigid, found->filter);
     }
     return result;
 }

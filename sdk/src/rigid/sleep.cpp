@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collide/filter.h"
 #include "collide/saturation.h"
 #include "rigid/body_roots.h"
 
@@ -154,6 +155,14 @@ void wake(Body& body) {
 void wake_all(RigidScene& scene) {
     for (Body& body : scene.bodies) {
         wake(body);
+    }
+}
+
+void wake_who_meets(RigidScene& scene, const lks_filter& filter) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        if (filters_meet(scene.descriptions[i].filter, filter)) {
+            wake(scene.bodies[i]);
+        }
     }
 }
 

@@ -22,8 +22,10 @@ void wake_islands(lks_world& world);
 void fall_asleep(lks_world& world);
 
 void wake(Body& body);
-// After what bodies rest on may have changed.
+// After what all bodies are drawn to may have changed.
 void wake_all(RigidScene& scene);
+// After what they rest on may have changed: those that meet a collider with this filter.
+void wake_who_meets(RigidScene& scene, const lks_filter& filter);
 // Those that have pushed this one in the last tick.
 void wake_neighbours(RigidScene& scene, std::uint32_t other);
 
