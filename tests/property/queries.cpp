@@ -160,6 +160,46 @@ TEST_CASE("overlaps come by kind and index, and the nearest is the nearest") {
     CHECK(found == 0);
 }
 
+TEST_CASE("a query's mask says which bodies and colliders it is about") {
+    World world(world_def(60, 8));
+    for (int i = 0; i < 3; ++i) {
+        lks_collider_def collider = lks_default_collider_def();
+        collider.filter.category = 1u << i;
+        collider.transform = at(10 * i, 0, 0);
+        world.add(collider);
+        lks_body_def body = lks_default_body_def();
+        body.filter.category = 1u << i;
+        add_body(world, ball_shape(0.5), fixed(10 * i + 5, 0, 0), body);
+    }
+    for (std::uint32_t mask = 0; mask < 16; ++mask) {
+        lks_query query = lks_default_query();
+        query.mask = mask;
+        query.radius = LKS_FIXED(30);
+        lks_hit near[8];
+        std::uint32_t count = 0;
+        REQUIRE(lks_world_overlap(world, &query, fixed(12, 0, 0), near, 8, &count) == LKS_OK);
+        query.radius = 0;
+        lks_hit along[8];
+        std::uint32_t along_count = 0;
+        REQUIRE(lks_world_cast(world, &query, fixed(-2, 0, 0), fixed(30, 0, 0), along, 8, &along_count) ==
+                LKS_OK);
+        std::uint32_t place = 0;
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            if ((mask >> i & 1) == 0) {
+                continue;
+            }
+            REQUIRE(along_count >= place + 2);
+            CHECK(along[place].kind == LKS_HIT_COLLIDER);
+            CHECK(along[place].collider.index == i);
+            CHECK(along[place + 1].kind == LKS_HIT_BODY);
+            CHECK(along[place + 1].body.index == i);
+            place += 2;
+        }
+        CHECK(along_count == place);
+        CHECK(count == place);
+    }
+}
+
 TEST_CASE(
     "where in the world it is asked changes no bit of the answer, and asking changes no bit of the world") {
     const auto ask = [](const lks_vec3& offset) {

@@ -41,7 +41,7 @@ typedef struct lks_hit {
 typedef struct lks_query {
     uint32_t struct_size; /* set by lks_default_query */
     uint32_t kinds;       /* made of LKS_HIT_BITs */
-    uint32_t mask;        /* bodies with none of these categories are left out */
+    uint32_t mask;        /* bodies and colliders with none of these categories are left out */
     uint32_t reserved;    /* 0 */
     lks_body_id ignored;  /* a body that is left out, too; generation 0: none */
     lks_fixed radius;     /* metres, 0 .. 30: of the ball that is cast, or how far to look */

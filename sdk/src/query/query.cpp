@@ -50,7 +50,7 @@ private:
     void visit_colliders(const Use& use) const {
         for (std::uint32_t i = 0; i < world_.colliders.size(); ++i) {
             const ColliderSlot& slot = world_.colliders[i];
-            if (!slot.used) {
+            if (!slot.used || !is_asked_for(slot.collider.filter, query_.mask)) {
                 continue;
             }
             lks_hit hit{};
