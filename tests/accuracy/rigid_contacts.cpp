@@ -32,6 +32,21 @@ TEST_CASE("a ball that bounces and then rolls is within 1e-9 m after a second, 1
     }
 }
 
+TEST_CASE(
+    "a box that comes down flat on a ground that gives back half is within 1e-10 m as it comes down again") {
+    // At its second impact it comes to the ground just at the end of a substep, and roundings say in which.
+    for (const int substeps : {8, 20}) {
+        RigidScene scene(with_substeps(substeps));
+        lks_collider_def ground = lks_default_collider_def();
+        ground.shape = LKS_SHAPE_PLANE;
+        ground.restitution = fixed(0.5);
+        scene.add_collider(ground, true);
+        scene.add(box_shape(0.3, 0.2, 0.25), with_friction(fixed(0, 1.2, 0), 0.5));
+        check("box that comes down flat" + substeps_name(substeps), scene.run({45}).back(),
+              {1e-10, 1e-12, 1000});
+    }
+}
+
 TEST_CASE("a box that slides until it stands is within 3e-6 m after ten seconds") {
     for (const int substeps : {8, 20}) {
         RigidScene scene(with_substeps(substeps));

@@ -105,6 +105,29 @@ TEST_CASE("of a body's and a collider's restitution the greater one counts, whos
     }
 }
 
+TEST_CASE("capsules and boxes that come down flat bounce as high, and do not begin to spin") {
+    lks_body_shape lying = capsule_shape(0.1, 0.3);
+    lying.transform.rotation = about(0, 0, 1, 90);
+    for (const std::uint32_t shape : {LKS_SHAPE_PLANE, LKS_SHAPE_BOX}) {
+        for (const std::uint32_t substeps : {8u, 20u}) {
+            for (const double restitution : {0.3, 0.5, 0.9}) {
+                lks_collider_def def = ground(shape);
+                def.restitution = fixed(restitution);
+                check_height(bounce(def, box_shape(0.3, 0.2, 0.25), 0.2, substeps), restitution, "box");
+                check_height(bounce(def, lying, 0.1, substeps), restitution, "capsule");
+            }
+        }
+    }
+    World world(world_def(60, 8));
+    add_ground(world);
+    lks_body_def def = lks_default_body_def();
+    def.restitution = fixed(0.5);
+    const lks_body_id box = add_body(world, box_shape(0.3, 0.2, 0.25), fixed(0, 1, 0), def);
+    world.step(30);
+    CHECK(state_of(world, box).velocity.y > 0);
+    CHECK(state_of(world, box).spin.length() < 1e-6);
+}
+
 TEST_CASE("a bat that gives back all speed throws a resting ball at twice its own") {
     World world(world_def(60, 20));
     REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);

@@ -1,6 +1,7 @@
 // Contacts of the rigid reference solver. The same rows in the same order as sdk/src/rigid/contact.h.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -189,16 +190,34 @@ public:
         }
     }
 
-    // Once velocities are known.
+    // Once velocities are known: what all points owe alike at their middle, then each its own.
     void restore_speed(Body& body_a, Body& body_b, Scalar least_approach) const {
-        for (const Point& point : points) {
-            if (restitution == 0 || !point.active || point.push == 0 || point.approach <= least_approach) {
-                continue;
+        if (restitution == 0) {
+            return;
+        }
+        const auto has_struck = [&](const Point& point) {
+            return point.active && point.push != 0 && point.approach > least_approach;
+        };
+        const auto owed = [&](const Point& point) {
+            return point.approach * restitution +
+                   closing_speed(levers_now(point, body_a, body_b), body_a, body_b);
+        };
+        const auto give = [&](const PushRow<Scalar>& row, Scalar speed) {
+            if (speed > 0) {
+                row.accelerate(row.push_for(speed), body_a, body_b);
             }
-            const Levers levers = levers_now(point, body_a, body_b);
-            const Scalar missing = point.approach * restitution + closing_speed(levers, body_a, body_b);
-            if (missing > 0) {
-                point.along.accelerate(point.along.push_for(missing), body_a, body_b);
+        };
+        const auto struck_count = std::count_if(points.begin(), points.end(), has_struck);
+        if (struck_count > 1 && struck_count == active_count_) {
+            Scalar sum = 0;
+            for (const Point& point : points) {
+                sum += has_struck(point) ? owed(point) : 0;
+            }
+            give(middle_, sum / static_cast<Scalar>(struck_count));
+        }
+        for (const Point& point : points) {
+            if (has_struck(point)) {
+                give(point.along, owed(point));
             }
         }
     }

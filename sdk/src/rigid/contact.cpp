@@ -82,6 +82,24 @@ std::int64_t closing_speed(const Contact& contact, const ContactPoint& point, co
     return closing_speed(contact, levers, bodies.a, bodies.b);
 }
 
+bool has_struck(const ContactPoint& point, std::int64_t least_approach) {
+    return point.active && point.push.normal != 0 && point.approach > least_approach;
+}
+
+// What restitution has yet to give at a point; less than nothing where it parts faster.
+std::int64_t owed_speed(const Contact& contact, const ContactPoint& point, const ContactBodies& bodies) {
+    return fixed::multiply_shift(point.approach, contact.restitution, world_fraction_bits) +
+           closing_speed(contact, point, bodies);
+}
+
+void give_speed(Contact& contact, const ContactRows& rows, std::int64_t speed, const ContactBodies& bodies) {
+    if (speed > 0) {
+        const std::int64_t p = divide(speed, rows.inverses[normal_row]);
+        contact.given_speed = fixed::saturating_add(contact.given_speed, p);
+        accelerate(contact, rows, p, bodies);
+    }
+}
+
 // What the points of a contact pushed before, to be handed on.
 class OldPushes {
 public:
@@ -210,18 +228,22 @@ void restore_speed(Contact& contact, ContactBodies bodies, std::int64_t least_ap
     if (contact.restitution == 0) {
         return;
     }
+    // What all points owe alike is given at their middle: one after the other they turn what comes down flat.
+    std::int64_t sum = 0;
+    std::uint32_t struck_count = 0;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        if (has_struck(contact.points[i], least_approach)) {
+            sum += owed_speed(contact, contact.points[i], bodies);
+            ++struck_count;
+        }
+    }
+    if (struck_count > 1 && struck_count == contact.active_count) {
+        give_speed(contact, contact.middle, sum / static_cast<std::int64_t>(struck_count), bodies);
+    }
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         const ContactPoint& point = contact.points[i];
-        if (!point.active || point.push.normal == 0 || point.approach <= least_approach) {
-            continue;
-        }
-        const std::int64_t wanted =
-            fixed::multiply_shift(point.approach, contact.restitution, world_fraction_bits);
-        const std::int64_t missing = wanted + closing_speed(contact, point, bodies);
-        if (missing > 0) {
-            const std::int64_t p = divide(missing, point.rows.inverses[normal_row]);
-            contact.given_speed = fixed::saturating_add(contact.given_speed, p);
-            accelerate(contact, point.rows, p, bodies);
+        if (has_struck(point, least_approach)) {
+            give_speed(contact, point.rows, owed_speed(contact, point, bodies), bodies);
         }
     }
 }
