@@ -68,9 +68,10 @@ void measure_paper(const std::string& part, const AccuracyOptions& options, Pape
 
 Experiment measure_part(const std::string& part, const AccuracyOptions& options, const Progress& progress) {
     const Grid grid = options.quick ? quick_grid() : whole_grid();
+    const bool a_minute = options.long_times || !options.quick;
     if (part == "spring") {
-        return measure_spring(
-            grid, options.long_times ? std::vector<int>{1, 10, 60} : std::vector<int>{1, 10}, progress);
+        return measure_spring(grid, a_minute ? std::vector<int>{1, 10, 60} : std::vector<int>{1, 10},
+                              progress);
     }
     if (part == "ragdoll_stairs") {
         // Beyond, joints are as near as their numbers allow.
@@ -87,7 +88,7 @@ Experiment measure_part(const std::string& part, const AccuracyOptions& options,
         scene.ticks = 600;
         scene.deviation_tick = 600;
     }
-    if (options.long_times && scene.is_regular) {
+    if (a_minute && scene.is_regular) {
         scene.later_ticks = {600, 3600};
     }
     return measure_particles(scene, grid, progress);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <utility>
 
 #include "report_files.h"
 
@@ -24,31 +23,6 @@ std::string digits(double value) {
                                                    : "%.0f",
                   value);
     return text;
-}
-
-std::string colour_of(const std::string& solver) {
-    static const std::pair<const char*, const char*> colours[] = {
-        {"fixed-point", "#08519c"},
-        {"fixed-point, at once", "#00a6c8"},
-        {"fixed-point, tethers", "#00a6c8"},
-        {"float32, tethers", "#b30000"},
-        {"double, tethers", "#252525"},
-        {"float32", "#fd8d3c"},
-        {"float32, at once", "#b30000"},
-        {"double", "#969696"},
-        {"double, at once", "#252525"},
-        {"PBD", "#54278f"},
-        {"PBD, scaled", "#9e9ac8"},
-        {"Bullet", "#31a354"},
-        {"Newton", "#000000"},
-        {"XPBD", "#4292c6"},
-    };
-    for (const auto& [name, colour] : colours) {
-        if (solver == name) {
-            return std::string(" lc rgb '") + colour + "'";
-        }
-    }
-    return " lc rgb '#c51b8a'";
 }
 
 std::string table_row(const std::vector<std::string>& cells) {
@@ -96,6 +70,10 @@ bool write_report(const std::string& folder, const std::vector<Section>& section
         return false;
     }
     bool drawn = lks_bench::has_gnuplot(error);
+    const auto picture = [](const std::string& title, const std::string& file) {
+        std::string line = "\n![";
+        return line.append(title).append("](").append(file).append(")\n");
+    };
     lks_bench::Results results;
     std::string text = "# Speed against error\n\n" + lks_bench::machine_name() +
                        ". One thread. Costs are the least of all ticks, since other work may run beside.\n";
@@ -105,8 +83,14 @@ bool write_report(const std::string& folder, const std::vector<Section>& section
         for (const Plot& plot : section.plots) {
             drawn = drawn && lks_bench::draw(folder, plot.file, plot.script, error);
             if (drawn) {
-                text += "\n![" + plot.title + "](" + plot.file + ")\n";
+                text += picture(plot.title, plot.file);
             }
+        }
+        for (const Drawn& drawing : section.drawings) {
+            if (!lks_bench::write_file(folder, drawing.file, drawing.svg, error)) {
+                return false;
+            }
+            text += picture(drawing.title, drawing.file);
         }
     }
     return lks_bench::write_file(folder, "results.json", to_json(results), error) &&

@@ -33,10 +33,18 @@ struct Plot {
     lks_bench::Script script;
 };
 
-// A part of the report: text, and the plots that stand behind it.
+// One that needs no gnuplot.
+struct Drawn {
+    std::string file; // NAME.svg
+    std::string title;
+    std::string svg;
+};
+
+// A part of the report: text, and the plots and drawings that stand behind it.
 struct Section {
     std::string text{};
     std::vector<Plot> plots{};
+    std::vector<Drawn> drawings{};
     lks_bench::Results results{};
 };
 
@@ -51,9 +59,7 @@ std::vector<Section> sections_of(const Measured& measured);
 // False, with a sentence: the folder can't be written, or the plots can't be made. What can be written is.
 bool write_report(const std::string& folder, const std::vector<Section>& sections, std::string& error);
 
-// For tables: three digits, and what a colour a solver has in every plot.
-std::string digits(double value);
-std::string colour_of(const std::string& solver);
+std::string digits(double value); // for tables: three of them
 // "| a | b |"
 std::string table_row(const std::vector<std::string>& cells);
 std::string table_head(const std::vector<std::string>& cells);

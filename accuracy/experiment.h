@@ -13,6 +13,7 @@ struct Quantity {
     std::string unit;
     std::string meaning;
     double seen = 0; // an error that is seen in a game: settings are ranked in this unit; 0: not by this
+    int beside = -1; // of a rounding: the quantity that tells what the method itself is off
 };
 
 // Behind the name of a solver whose rope is solved at once.
@@ -35,7 +36,6 @@ struct Experiment {
     std::string what; // in one sentence, what is simulated
     std::string unit_of_work = "particle";
     std::vector<Quantity> quantities{};
-    std::size_t main_quantity = 0; // that is plotted against cost
     // Deviation of the same quantity between fixed-point and double precision, and between double precision
     // and the converged reference: none where there is no such twin.
     bool has_rounding = false;
@@ -44,7 +44,10 @@ struct Experiment {
 };
 
 std::string label_of(const reference::Schedule& schedule); // "20 × 1"
+std::string seconds_of(int ticks);                         // "0.25 s"
 
+// In the order of the rows, each once.
+std::vector<std::string> solvers_of(const Experiment& experiment);
 bool has_solver(const Experiment& experiment, const std::string& solver);
 // The largest of a row's errors, each in units of what is seen.
 double worst_seen(const Experiment& experiment, const Row& row);

@@ -254,14 +254,18 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
     experiment.quantities = {
         {"stretch, worst", "%",
          "the most that any inextensible constraint is off its length in any tick; 0 is right", 1},
-        {"stretch, mean", "%", "the same, on the average over constraints and ticks", 0.1},
+        {"stretch, mean", "%",
+         "how far inextensible constraints are off their length, on the average over constraints and ticks; "
+         "0 is right",
+         0.1},
         {"deviation", "m",
          "the farthest that any particle is from the converged solution after " +
-             std::to_string(measured.deviation_tick) + " ticks",
+             seconds_of(measured.deviation_tick),
          0.05},
         {"rounding", "m",
-         "the farthest that any particle is then from the same method in double precision at the same "
-         "setting"}};
+         "the farthest that any particle is after " + seconds_of(measured.deviation_tick) +
+             " from where the same method in double precision has it at the same setting",
+         0, 2}};
     if (measured.lowest_vertex > 0) {
         experiment.quantities.push_back(
             {"sag", "m", "how far the middle of the lower edge is from its right height at the end", 0.05});
@@ -273,7 +277,7 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
              "end of a tick, relative to the force",
              20});
         experiment.quantities.push_back(
-            {"support force, mean", "%", "error of the mean of these readings over the whole run", 5});
+            {"support force, mean", "%", "error of the mean of all readings of the force at the pin", 5});
     }
     if (measured.keeps_energy) {
         experiment.quantities.push_back(
@@ -283,9 +287,15 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
              5});
     }
     for (const int tick : measured.later_ticks) {
-        const std::string when = std::to_string(tick / 60) + " s";
-        experiment.quantities.push_back({"deviation, " + when, "m", "deviation after " + when});
-        experiment.quantities.push_back({"rounding, " + when, "m", "rounding after " + when});
+        const std::string when = seconds_of(tick);
+        const int deviation = static_cast<int>(experiment.quantities.size());
+        experiment.quantities.push_back(
+            {"deviation, " + when, "m",
+             "the farthest that any particle is from the converged solution, a rope at once, after " + when});
+        experiment.quantities.push_back({"rounding, " + when, "m",
+                                         "the farthest that any particle is after " + when +
+                                             " from where the same method in double precision has it",
+                                         0, deviation});
     }
     experiment.has_rounding = true;
     experiment.discretisation = 2;

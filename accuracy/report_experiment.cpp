@@ -2,21 +2,12 @@
 #include <cmath>
 
 #include "accuracy_report.h"
+#include "experiment_sheet.h"
 
 namespace lks_accuracy {
 namespace {
 
 constexpr int budgets[] = {5, 10, 20, 40, 80, 160};
-
-std::vector<std::string> solvers_of(const Experiment& experiment) {
-    std::vector<std::string> solvers;
-    for (const Row& row : experiment.rows) {
-        if (std::find(solvers.begin(), solvers.end(), row.solver) == solvers.end()) {
-            solvers.push_back(row.solver);
-        }
-    }
-    return solvers;
-}
 
 // Of ours: swept, and where there is such a thing, solved at once.
 std::vector<std::string> suffixes_of(const Experiment& experiment) {
@@ -27,20 +18,6 @@ std::vector<std::string> suffixes_of(const Experiment& experiment) {
         }
     }
     return suffixes;
-}
-
-// Points of one solver and quantity, in the order of the grid.
-template <typename Wanted>
-std::string lines_of(const Experiment& experiment, const std::string& solver, std::size_t quantity,
-                     bool against_cost, const Wanted& wanted) {
-    std::string lines;
-    for (const Row& row : experiment.rows) {
-        const double error = row.errors[quantity];
-        if (row.solver == solver && std::isfinite(error) && error > 0 && wanted(row.schedule)) {
-            lines += lks_bench::value_pair(against_cost ? row.nanoseconds : row.schedule.substeps, error);
-        }
-    }
-    return lines;
 }
 
 // A setting a row, a solver a column.
@@ -115,68 +92,9 @@ std::string rounding_table(const Experiment& experiment, const std::string& suff
     return text;
 }
 
-Plot draw_experiment(const Experiment& experiment) {
-    const Quantity& main = experiment.quantities[experiment.main_quantity];
-    Plot plot{experiment.name + ".svg", experiment.title, lks_bench::Script("", 1280, 680)};
-    lks_bench::Script& script = plot.script;
-    if (experiment.has_rounding) {
-        script.command("set multiplot layout 1,2");
-    }
-    script.command("set title '" + experiment.title + ": " + main.name + "'\nset logscale xy\n" +
-                   "set xlabel 'nanoseconds a " + experiment.unit_of_work + " and tick'\nset ylabel '" +
-                   main.unit +
-                   "'\nset format y '10^{%T}'\nset format x '%g'\nset key outside bottom center maxrows 6");
-    std::vector<std::string> curves;
-    for (const std::string& solver : solvers_of(experiment)) {
-        const auto add = [&](const char* style, const std::string& title, const auto& wanted) {
-            const std::string lines = lines_of(experiment, solver, experiment.main_quantity, true, wanted);
-            if (!lines.empty()) {
-                curves.push_back(script.data(lines) + style + colour_of(solver) +
-                                 (title.empty() ? " notitle" : " title '" + title + "'"));
-            }
-        };
-        if (solver.rfind("double", 0) == 0) {
-            continue; // lies on fixed-point's errors, at a cost that says nothing
-        }
-        const bool fixed_iterations = experiment.name == "ragdoll_stairs" && solver == "Bullet";
-        add(" with linespoints lw 3 pt 7 ps 0.7", solver + ", substeps",
-            [&](const reference::Schedule& s) { return s.iterations == 1 || fixed_iterations; });
-        if (!fixed_iterations) {
-            add(" with linespoints lw 2 dt 2 pt 6 ps 0.7", solver + ", iterations",
-                [](const reference::Schedule& s) { return s.substeps == 1; });
-        }
-        if (solver.rfind("fixed-point", 0) == 0) {
-            add(" with points pt 2 ps 0.7", solver + ", both",
-                [](const reference::Schedule& s) { return s.substeps > 1 && s.iterations > 1; });
-        }
-    }
-    script.command("plot " + lks_bench::comma_separated(curves));
-    if (!experiment.has_rounding) {
-        return plot;
-    }
-
-    script.command("set title '" + experiment.title +
-                   ": places'\nset format x '%g'\nset xlabel 'substeps of one iteration'\n"
-                   "set ylabel 'm'");
-    const auto one_iteration = [](const reference::Schedule& s) { return s.iterations == 1; };
-    const auto curve = [&](const std::string& solver, std::size_t quantity, const std::string& looks) {
-        return script.data(lines_of(experiment, solver, quantity, false, one_iteration)) +
-               " with linespoints lw 3 " + looks;
-    };
-    std::vector<std::string> kinds;
-    for (const std::string& suffix : suffixes_of(experiment)) {
-        const auto add = [&](const std::string& solver, std::size_t quantity, const std::string& title) {
-            std::string looks = "pt 7" + colour_of(solver + suffix);
-            looks.append(" title '").append(title).append(suffix).append("'");
-            kinds.push_back(curve(solver + suffix, quantity, looks));
-        };
-        add("double", experiment.discretisation, "off the converged solution (double)");
-        add("float32", experiment.rounding, "rounding of float32");
-        add("fixed-point", experiment.rounding, "rounding of fixed-point");
-    }
-    script.command("plot " + lks_bench::comma_separated(kinds));
-    script.command("unset multiplot");
-    return plot;
+Drawn draw_experiment(const Experiment& experiment, Across across, const char* suffix) {
+    const Sheet sheet = sheet_of(experiment, across);
+    return {experiment.name + suffix + ".svg", sheet.title, drawn(sheet)};
 }
 
 } // namespace
@@ -205,7 +123,8 @@ Section report_experiment(const Experiment& experiment) {
         section.text += "\nThe whole grid, " + experiment.quantities[quantity].name + " (" +
                         experiment.quantities[quantity].unit + "):\n\n" + whole_table(experiment, quantity);
     }
-    section.plots.push_back(draw_experiment(experiment));
+    section.drawings.push_back(draw_experiment(experiment, Across::nanoseconds, ""));
+    section.drawings.push_back(draw_experiment(experiment, Across::projections, "-projections"));
     for (const Row& row : experiment.rows) {
         const std::string variant = row.solver + ", " + label_of(row.schedule);
         section.results.push_back({experiment.name, "cost", variant, row.nanoseconds,

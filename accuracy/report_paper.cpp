@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "accuracy_report.h"
+#include "colours.h"
 
 namespace lks_accuracy {
 namespace {
@@ -53,12 +54,12 @@ Section report_spring(const std::vector<SpringRun>& runs) {
              run.solver + ", " + digits(run.rate_hz) + " Hz, " + numbered(run.iterations), run.period, "s"});
         const bool pbd = run.solver == "PBD";
         if (run.rate_hz == 60 && (pbd || run.solver == "fixed-point")) {
-            curves.push_back(
-                plot.script.data(by_frame(run.elongations, 0)) +
-                (pbd ? " with linespoints lw 1 ps 0.5 pt " + std::to_string(4 + run.iterations)
-                     : " with lines lw " + std::to_string(run.iterations == 1 ? 7 : 2)) +
-                (pbd || run.iterations == 1 ? colour_of(run.solver) : std::string(" dt 2 lc rgb '#fdd0a2'")) +
-                " title '" + run.solver + ", " + numbered(run.iterations) + "'");
+            curves.push_back(plot.script.data(by_frame(run.elongations, 0)) +
+                             (pbd ? " with linespoints lw 1 ps 0.5 pt " + std::to_string(4 + run.iterations)
+                                  : " with lines lw " + std::to_string(run.iterations == 1 ? 7 : 2)) +
+                             (pbd || run.iterations == 1 ? line_colour_of(run.solver)
+                                                         : std::string(" dt 2 lc rgb '#fdd0a2'")) +
+                             " title '" + run.solver + ", " + numbered(run.iterations) + "'");
         }
     }
     curves.push_back("0.5 * cos(2 * pi * x / " + std::to_string(60 * analytic_spring_period()) +
@@ -103,8 +104,8 @@ Section report_chain(const std::vector<ChainRun>& runs) {
                                            std::to_string(run.iterations == 50    ? 3
                                                           : run.iterations == 100 ? 2
                                                                                   : 1) +
-                                           colour_of(run.solver)
-                                     : " with points pt 7 ps 0.4" + colour_of(run.solver)) +
+                                           line_colour_of(run.solver)
+                                     : " with points pt 7 ps 0.4" + line_colour_of(run.solver)) +
                              " title '" + name + "'");
         }
     }
@@ -177,8 +178,8 @@ Section report_cloth(const ClothHang& cloth, const std::vector<SagRun>& runs) {
             {"paper_cloth", "sag", run.solver + ", " + numbered(run.iterations), run.sag, "m"});
         lines += lks_bench::value_pair(run.iterations, run.sag);
         if (i + 1 == runs.size() || runs[i + 1].solver != run.solver) {
-            curves.push_back(plot.script.data(lines) + " with linespoints lw 3 pt 7" + colour_of(run.solver) +
-                             " title '" + run.solver + "'");
+            curves.push_back(plot.script.data(lines) + " with linespoints lw 3 pt 7" +
+                             line_colour_of(run.solver) + " title '" + run.solver + "'");
             lines.clear();
         }
     }
@@ -226,7 +227,7 @@ Section report_balloon(const std::vector<BalloonRun>& runs) {
         std::string looks = " with lines lw 7 lc rgb '#d9d9d9'";
         if (!exact) {
             looks = " with linespoints lw 1 ps 1 pt ";
-            looks.append(std::to_string(5 + curves.size() % 8)).append(colour_of(solver));
+            looks.append(std::to_string(5 + curves.size() % 8)).append(line_colour_of(solver));
         }
         looks.append(" title '").append(title).append("'");
         curves.push_back(plot.script.data(points) + looks);

@@ -107,18 +107,20 @@ Experiment measure_stairs(const Grid& grid, int ticks, const Progress& progress)
     Experiment experiment{
         "ragdoll_stairs", "Ragdolls, stairs",
         "Four humanoids of 15 bodies stumble down ten steps; " + std::to_string(ticks / 60) +
-            " seconds. Falls are chaotic: places are compared after " + std::to_string(early) + " ticks."};
+            " seconds. Falls are chaotic: places are compared after " + seconds_of(early) + "."};
     experiment.quantities = {
         {"joint separation, mean", "mm",
-         "how far the points that a joint holds together are apart; 0 is right", 1},
-        {"joint separation, worst", "mm", "the most that any joint is in any tick", 10},
+         "how far the points that a joint holds together are apart, on the average; 0 is right", 1},
+        {"joint separation, worst", "mm",
+         "the most that the points of any joint are apart in any tick; 0 is right", 10},
         {"energy gained", "%",
          "the most that energy rises again, relative to what they start with; 0 is right", 5},
         {"deviation", "m",
-         "the farthest that any bone is from the converged solution after " + std::to_string(early) +
-             " ticks"},
+         "the farthest that any bone is from the converged solution after " + seconds_of(early)},
         {"rounding", "m",
-         "the farthest that any bone is then from the same method in double precision at the same setting"}};
+         "the farthest that any bone is after " + seconds_of(early) +
+             " from where the same method in double precision has it at the same setting",
+         0, 3}};
     experiment.unit_of_work = "body";
     experiment.has_rounding = true;
     experiment.discretisation = 3;

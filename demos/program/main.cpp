@@ -148,7 +148,7 @@ private:
         command->add_flag("--quick", accuracy_options_.quick,
                           "A small grid of settings: seconds instead of minutes");
         command->add_flag("--long", accuracy_options_.long_times,
-                          "The spring and the heavy rope for 60 seconds, the hanging cloth for 10");
+                          "The hanging cloth for 10 seconds; spring and heavy rope for 60 also with --quick");
         command->add_option("--report", accuracy_options_.report,
                             "report.md, results.json, results.csv and plots in this folder");
         command->add_flag("--list", accuracy_options_.list, "What can be measured");

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree
 
 program = sys.argv[1]
 
@@ -68,12 +69,25 @@ with tempfile.TemporaryDirectory() as folder:
     if "accuracy: spring" not in done.stderr:
         sys.exit("There was no progress.")
     made = {path.name for path in pathlib.Path(folder).iterdir()}
-    plots = {"paper-spring.svg", "paper-balloon.svg", "spring.svg"} if drawn else set()
+    # Those of the paper's experiments are gnuplot's.
+    plots = {"paper-spring.svg", "paper-balloon.svg"} if drawn else set()
+    sheets = {"spring.svg", "spring-projections.svg"}
+    plots |= sheets
     if made != {"report.md", "results.json", "results.csv"} | plots:
         sys.exit(f"The report consists of {sorted(made)}.")
     text = pathlib.Path(folder, "report.md").read_text()
     if "## The paper's spring" not in text or "| fixed-point | 60.0 | 10 |" not in text:
         sys.exit("The report doesn't tell of the spring.")
-    if len(json.loads(pathlib.Path(folder, "results.json").read_text())) < 50:
+    results = json.loads(pathlib.Path(folder, "results.json").read_text())
+    if len(results) < 50:
         sys.exit("The results are too few.")
+    measures = {f"{r['measured']} ({r['unit']})" for r in results
+                if r["workload"] == "spring" and r["measured"] not in ("cost", "passes")}
+    for name in sheets:
+        picture = xml.etree.ElementTree.parse(pathlib.Path(folder, name))
+        left_out = measures - {element.text for element in picture.iter()}
+        if left_out or len(measures) < 5:
+            sys.exit(f"{name} leaves out {sorted(left_out)} of {sorted(measures)}.")
+        if f"({name})" not in text:
+            sys.exit(f"The report doesn't show {name}.")
 print("measured, refused and reported")
