@@ -88,7 +88,7 @@ Experiment measure_spring(const Grid& grid, const std::vector<int>& seconds, con
                 row.errors.push_back(100 * std::abs(period / analytic_spring_period() - 1));
                 row.errors.push_back(100 * (1 - height_left(first_second)));
                 for (const int s : seconds) {
-                    row.errors.push_back(std::abs(found.elongations[static_cast<std::size_t>(60 * s)] -
+                    row.errors.push_back(std::abs(found.elongations[60 * static_cast<std::size_t>(s)] -
                                                   amplitude * std::cos(frequency * s)));
                 }
                 const bool has_twin = engine == Engine::fixed_point || engine == Engine::single_precision;
