@@ -4,6 +4,7 @@
 
 #include "collide/saturation.h"
 #include "rigid/articulation_algebra.h"
+#include "rigid/articulation_walk.h"
 #include "rigid/body_motion.h"
 #include "rigid/held_tree.h"
 
@@ -138,9 +139,9 @@ void stiffen(Body& body, std::int64_t load, std::int64_t before) {
 }
 
 // The bodies and joints of one tree.
-class Tree {
+class Tree : public ArticulationWalk {
 public:
-    Tree(RigidScene& scene, const ArticulatedTree& range) : scene_(scene), range_(range) {}
+    Tree(RigidScene& scene, const ArticulatedTree& range) : ArticulationWalk(scene, range) {}
 
     void stiffen_bodies() {
         for_each_body([](Body&, ArticulatedBody& part) {
@@ -162,7 +163,7 @@ public:
     void factor() {
         for_each_body(
             [](Body& body, ArticulatedBody& part) { part.inverse = own_inverse(body, part.share); });
-        for_each_joint_back([this](ArticulatedJoint& part) {
+        for_each_joint_back([this](ArticulatedJoint& part, const Joint&) {
             factor_joint(scene_, part);
             // Nothing is carried by what the root's first joint leaves of it.
             if (&part != &scene_.tree_joints[range_.first_joint]) {
@@ -181,7 +182,7 @@ public:
                 part.turn = own_turn(body, part, part.carried_torque);
             }
         });
-        for_each_joint_back([&](ArticulatedJoint& part) { fold_error(part, error); });
+        for_each_joint_back([&](ArticulatedJoint& part, const Joint&) { fold_error(part, error); });
         for_each_joint([&](ArticulatedJoint& part, Joint& joint) {
             const Vec3 push = push_of(part);
             use(joint, multiply_32(part.pair_share, part.child_is_a ? -push : push));
@@ -217,33 +218,10 @@ public:
             far_off = undo_errors();
             bring_together();
         }
-        for_each_body(
-            [](Body& body, const ArticulatedBody&) { body.orientation = normalise(body.orientation); });
+        make_units();
     }
 
 private:
-    template <typename Use>
-    void for_each_body(const Use& use) {
-        for (std::uint32_t i = range_.first_body; i < range_.body_end; ++i) {
-            const std::uint32_t index = scene_.tree_bodies[i];
-            use(scene_.bodies[index], scene_.articulated[index]);
-        }
-    }
-    // From the root on.
-    template <typename Use>
-    void for_each_joint(const Use& use) {
-        for (std::uint32_t i = range_.first_joint; i < range_.joint_end; ++i) {
-            ArticulatedJoint& part = scene_.tree_joints[i];
-            use(part, scene_.joints[part.joint]);
-        }
-    }
-    template <typename Use>
-    void for_each_joint_back(const Use& use) {
-        for (std::uint32_t i = range_.joint_end; i-- > range_.first_joint;) {
-            use(scene_.tree_joints[i]);
-        }
-    }
-
     void stiffen_by_tensions() {
         for_each_body([](Body&, ArticulatedBody& part) { part.found_load = 0; });
         for_each_joint([this](const ArticulatedJoint& part, const Joint& joint) {
@@ -273,9 +251,6 @@ private:
         std::int64_t& sum = scene_.articulated[index].found_load;
         sum = std::min(fixed::saturating_add(sum, load), greatest_load);
     }
-
-    Body& body_a(const Joint& joint) { return scene_.bodies[joint.description.body_a]; }
-    Body& body_b(const Joint& joint) { return scene_.bodies[joint.description.body_b]; }
 
     template <typename Error>
     void fold_error(ArticulatedJoint& part, const Error& error) {
@@ -311,9 +286,6 @@ private:
         }
         return push;
     }
-
-    RigidScene& scene_;
-    const ArticulatedTree& range_;
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "collide/saturation.h"
 #include "rigid/articulation.h"
 #include "rigid/articulation_algebra.h"
+#include "rigid/articulation_walk.h"
 #include "rigid/body_motion.h"
 #include "rigid/joint_limits.h"
 #include "rigid/joint_turns.h"
@@ -88,15 +89,15 @@ private:
     int patience_ = most_patience;
 };
 
-class HeldTree {
+class HeldTree : public ArticulationWalk {
 public:
     HeldTree(RigidScene& scene, const ArticulatedTree& range, bool in_substep)
-        : scene_(scene), range_(range), in_substep_(in_substep) {}
+        : ArticulationWalk(scene, range), in_substep_(in_substep) {}
 
     // False: points are further apart than a step undoes.
     bool find_rows() {
         bool near = true;
-        for_each_joint([&](const ArticulatedJoint& part, Joint& joint, HeldJoint& held) {
+        for_each_held([&](const ArticulatedJoint& part, Joint& joint, HeldJoint& held) {
             const Body& a = body_a(joint);
             const Body& b = body_b(joint);
             held.row_count = turn_rows(joint, a, b, in_substep_, held.rows);
@@ -123,7 +124,7 @@ public:
     // By more than rows that go in turn should have to undo.
     bool is_far_turned() {
         bool far = false;
-        for_each_joint([&](const ArticulatedJoint&, const Joint& joint, const HeldJoint&) {
+        for_each_joint([&](const ArticulatedJoint&, const Joint& joint) {
             const Body& a = body_a(joint);
             const Body& b = body_b(joint);
             far = far || turned_away(joint, a, b, false) > far_turned ||
@@ -147,40 +148,19 @@ public:
         push();
     }
 
-    void make_units() {
-        for_each_body(
-            [](Body& body, const ArticulatedBody&) { body.orientation = normalise(body.orientation); });
-    }
-
 private:
+    // use(part, joint, held), from the root on.
     template <typename Use>
-    void for_each_body(const Use& use) {
-        for (std::uint32_t i = range_.first_body; i < range_.body_end; ++i) {
-            const std::uint32_t index = scene_.tree_bodies[i];
-            use(scene_.bodies[index], scene_.articulated[index]);
-        }
+    void for_each_held(const Use& use) {
+        for_each_joint([&](ArticulatedJoint& part, Joint& joint) { use(part, joint, held_of(part)); });
     }
     template <typename Use>
-    void use_joint(std::uint32_t i, const Use& use) {
-        ArticulatedJoint& part = scene_.tree_joints[i];
-        use(part, scene_.joints[part.joint], scene_.held_joints[i]);
+    void for_each_held_back(const Use& use) {
+        for_each_joint_back([&](ArticulatedJoint& part, Joint& joint) { use(part, joint, held_of(part)); });
     }
-    // From the root on.
-    template <typename Use>
-    void for_each_joint(const Use& use) {
-        for (std::uint32_t i = range_.first_joint; i < range_.joint_end; ++i) {
-            use_joint(i, use);
-        }
+    HeldJoint& held_of(const ArticulatedJoint& part) {
+        return scene_.held_joints[static_cast<std::size_t>(&part - scene_.tree_joints.begin())];
     }
-    template <typename Use>
-    void for_each_joint_back(const Use& use) {
-        for (std::uint32_t i = range_.joint_end; i-- > range_.first_joint;) {
-            use_joint(i, use);
-        }
-    }
-
-    Body& body_a(const Joint& joint) { return scene_.bodies[joint.description.body_a]; }
-    Body& body_b(const Joint& joint) { return scene_.bodies[joint.description.body_b]; }
 
     Vec3 axis_in_units(std::uint32_t body, const Joint& joint, const fixed::Direction& axis) {
         return shifted({axis.x, axis.y, axis.z}, tree_fraction_bits - direction_fraction_bits +
@@ -215,7 +195,7 @@ private:
     void factor() {
         for_each_body(
             [](Body& body, ArticulatedBody& part) { part.inverse = own_inverse(body, part.share); });
-        for_each_joint_back([this](const ArticulatedJoint& part, const Joint&, HeldJoint& held) {
+        for_each_held_back([this](const ArticulatedJoint& part, const Joint&, HeldJoint& held) {
             factor_joint(part, held);
             if (&part != &scene_.tree_joints[range_.first_joint]) {
                 fold_in(scene_.articulated[part.parent].inverse, held);
@@ -298,7 +278,7 @@ private:
     // Of all rows that push. Limits that don't take back what they have pushed.
     void find_pushes() {
         for_each_body([](Body&, ArticulatedBody& part) { part.force = part.torque = {0, 0, 0}; });
-        for_each_joint([this](const ArticulatedJoint& part, const Joint& joint, const HeldJoint& held) {
+        for_each_held([this](const ArticulatedJoint& part, const Joint& joint, const HeldJoint& held) {
             for (std::uint32_t i = 0; i < held.row_count; ++i) {
                 if (!held.pushes[i] && held.rows[i].push != 0) {
                     add_torque(part, held, i, of_child(part, -pushed(part, joint, held.rows[i])));
@@ -311,10 +291,10 @@ private:
             part.turn = own_turn(body, part, part.torque);
             part.torque = {0, 0, 0};
         });
-        for_each_joint_back([this](const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
+        for_each_held_back([this](const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
             fold_errors(part, joint, held);
         });
-        for_each_joint(
+        for_each_held(
             [this](const ArticulatedJoint& part, const Joint&, HeldJoint& held) { hand_down(part, held); });
         for_each_body([](const Body& body, ArticulatedBody& part) {
             part.torque = part.torque + part.carried_torque;
@@ -374,7 +354,7 @@ private:
     // use(held, row): limits that pull, or that don't push and are exceeded.
     template <typename Use>
     void for_each_wrong(const Use& use) {
-        for_each_joint_back([&](const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
+        for_each_held_back([&](const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
             bool wrong[most_held_rows] = {};
             for_each_pushing(held, [&](int row, std::uint32_t i) {
                 wrong[i] = held.rows[i].is_limit() &&
@@ -412,7 +392,7 @@ private:
     void push() {
         for_each_body([](Body& body, const ArticulatedBody& part) { apply(body, move_of(body, part)); });
         if (in_substep_) {
-            for_each_joint([](const ArticulatedJoint& part, Joint& joint, const HeldJoint& held) {
+            for_each_held([](const ArticulatedJoint& part, Joint& joint, const HeldJoint& held) {
                 keep_pushes(part, joint, held);
             });
         }
@@ -438,8 +418,6 @@ private:
         });
     }
 
-    RigidScene& scene_;
-    const ArticulatedTree& range_;
     bool in_substep_;
 };
 
