@@ -39,7 +39,8 @@ struct Experiment {
     // Deviation of the same quantity between fixed-point and double precision, and between double precision
     // and the converged reference: none where there is no such twin.
     bool has_rounding = false;
-    std::size_t rounding = 0, discretisation = 0; // quantities
+    std::size_t rounding = 0; // of the quantities
+    std::size_t discretisation() const { return static_cast<std::size_t>(quantities[rounding].beside); }
     std::vector<Row> rows{};
 };
 

@@ -16,14 +16,18 @@ double place(const Row& row, Across across) {
     return across == Across::nanoseconds ? row.nanoseconds : row.passes();
 }
 
+bool is_double(const std::string& solver) {
+    return solver.rfind("double", 0) == 0;
+}
+
 // The reference code in double precision lies on fixed-point's errors, at a cost that says nothing.
 bool has_place(const std::string& solver, Across across) {
-    return across == Across::projections || solver.rfind("double", 0) != 0;
+    return across == Across::projections || !is_double(solver);
 }
 
 // Many of them have the same errors: then each shows beside those that are drawn later.
 double width_of(const std::string& solver) {
-    return solver.rfind("double", 0) == 0 ? 5 : solver.rfind("float32", 0) == 0 ? 3.2 : 1.8;
+    return is_double(solver) ? 5 : solver.rfind("float32", 0) == 0 ? 3.2 : 1.8;
 }
 
 int least_iterations(const Experiment& experiment, const std::string& solver) {
@@ -131,7 +135,7 @@ Panel panel_of(const Experiment& experiment, std::size_t index, Across across) {
     const std::vector<std::string> solvers = solvers_of(experiment);
     if (quantity.beside >= 0 && across == Across::projections) {
         for (const std::string& solver : solvers) {
-            if (solver.rfind("double", 0) == 0) {
+            if (is_double(solver)) {
                 add_curve(experiment, solver, static_cast<std::size_t>(quantity.beside), across,
                           Sweep::backdrop, panel);
             }

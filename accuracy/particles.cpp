@@ -298,7 +298,6 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
                                          0, deviation});
     }
     experiment.has_rounding = true;
-    experiment.discretisation = 2;
     experiment.rounding = 3;
 
     progress(measured.name + ": reference, " + std::to_string(measured.reference_substeps) + " substeps");

@@ -81,7 +81,7 @@ std::string rounding_table(const Experiment& experiment, const std::string& suff
         double single = 0;
         for (const Row& other : experiment.rows) {
             if (label_of(other.schedule) == label_of(row.schedule)) {
-                own = other.solver == "double" + suffix ? other.errors[experiment.discretisation] : own;
+                own = other.solver == "double" + suffix ? other.errors[experiment.discretisation()] : own;
                 single = other.solver == "float32" + suffix ? other.errors[experiment.rounding] : single;
             }
         }

@@ -55,9 +55,9 @@ Experiment measure_spring(const Grid& grid, const std::vector<int>& seconds, con
                               "how much smaller the swing is after a second: implicit steps take energy out",
                               10}};
     for (const int s : seconds) {
-        experiment.quantities.push_back(
-            {"deviation, " + std::to_string(s) + " s", "m",
-             "how far it is from where it should be after " + std::to_string(s) + " s", s == 1 ? 0.05 : 0});
+        experiment.quantities.push_back({"deviation, " + seconds_of(60 * s), "m",
+                                         "how far it is from where it should be after " + seconds_of(60 * s),
+                                         s == 1 ? 0.05 : 0});
     }
     experiment.quantities.push_back(
         {"rounding", "m",
@@ -65,7 +65,6 @@ Experiment measure_spring(const Grid& grid, const std::vector<int>& seconds, con
          "the same setting",
          0, 2});
     experiment.has_rounding = true;
-    experiment.discretisation = 2;
     experiment.rounding = experiment.quantities.size() - 1;
 
     progress("spring");

@@ -123,7 +123,6 @@ Experiment measure_stairs(const Grid& grid, int ticks, const Progress& progress)
          0, 3}};
     experiment.unit_of_work = "body";
     experiment.has_rounding = true;
-    experiment.discretisation = 3;
     experiment.rounding = 4;
     const lks_bench::CrowdStairs crowd;
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

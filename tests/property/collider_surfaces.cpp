@@ -15,22 +15,6 @@ namespace {
 constexpr double fall = 2;
 constexpr double radius = 0.25;
 
-// Each shape with its top at the origin.
-lks_collider_def ground(std::uint32_t shape) {
-    lks_collider_def def = lks_default_collider_def();
-    def.shape = shape;
-    def.radius = fixed(0.5);
-    def.half_length = fixed(2);
-    def.half_extents = fixed(1, 0.5, 1);
-    def.transform.position.y = shape == LKS_SHAPE_PLANE ? 0 : fixed(-0.5);
-    if (shape == LKS_SHAPE_CAPSULE) {
-        def.transform.rotation = about(0, 0, 1, 90);
-    }
-    return def;
-}
-
-constexpr std::uint32_t all_shapes[] = {LKS_SHAPE_PLANE, LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE, LKS_SHAPE_BOX};
-
 std::string name_of(std::uint32_t shape) {
     return "shape " + std::to_string(shape);
 }
@@ -73,10 +57,10 @@ double bounce(const lks_collider_def& on, const lks_body_shape& shape, double re
 } // namespace
 
 TEST_CASE("a ball bounces on each shape to the height that the collider's restitution gives it") {
-    for (const std::uint32_t shape : all_shapes) {
+    for (const std::uint32_t shape : collider_shapes) {
         for (const std::uint32_t substeps : {8u, 20u}) {
             for (const double restitution : {0.0, 0.3, 0.5, 0.9}) {
-                lks_collider_def def = ground(shape);
+                lks_collider_def def = collider_below_origin(shape);
                 def.restitution = fixed(restitution);
                 check_height(bounce(def, ball_shape(radius), radius, substeps), restitution, name_of(shape));
             }
@@ -91,16 +75,16 @@ TEST_CASE("of a body's and a collider's restitution the greater one counts, whos
         lks_body_shape shape;
         double rest;
     } bodies[] = {{ball_shape(radius), radius}, {lying, 0.1}, {box_shape(0.3, 0.2, 0.25), 0.2}};
-    for (const std::uint32_t shape : all_shapes) {
-        lks_collider_def dull = ground(shape);
+    for (const std::uint32_t shape : collider_shapes) {
+        lks_collider_def dull = collider_below_origin(shape);
         dull.restitution = fixed(0.3);
-        lks_collider_def lively = ground(shape);
+        lks_collider_def lively = collider_below_origin(shape);
         lively.restitution = fixed(0.75);
         for (const auto& body : bodies) {
             const double by_body = bounce(dull, body.shape, body.rest, 20, fixed(0.75));
             CHECK(by_body > 0.1);
             CHECK(by_body == bounce(lively, body.shape, body.rest, 20, fixed(0.3)));
-            CHECK(by_body == bounce(ground(shape), body.shape, body.rest, 20, fixed(0.75)));
+            CHECK(by_body == bounce(collider_below_origin(shape), body.shape, body.rest, 20, fixed(0.75)));
         }
     }
 }
@@ -111,7 +95,7 @@ TEST_CASE("capsules and boxes that come down flat bounce as high, and do not beg
     for (const std::uint32_t shape : {LKS_SHAPE_PLANE, LKS_SHAPE_BOX}) {
         for (const std::uint32_t substeps : {8u, 20u}) {
             for (const double restitution : {0.3, 0.5, 0.9}) {
-                lks_collider_def def = ground(shape);
+                lks_collider_def def = collider_below_origin(shape);
                 def.restitution = fixed(restitution);
                 check_height(bounce(def, box_shape(0.3, 0.2, 0.25), 0.2, substeps), restitution, "box");
                 check_height(bounce(def, lying, 0.1, substeps), restitution, "capsule");
@@ -131,7 +115,7 @@ TEST_CASE("capsules and boxes that come down flat bounce as high, and do not beg
 TEST_CASE("a bat that gives back all speed throws a resting ball at twice its own") {
     World world(world_def(60, 20));
     REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
-    lks_collider_def def = ground(LKS_SHAPE_BOX);
+    lks_collider_def def = collider_below_origin(LKS_SHAPE_BOX);
     def.restitution = LKS_FIXED_ONE;
     const lks_collider_id bat = world.add(def);
     const lks_body_id ball = add_body(world, ball_shape(radius), fixed(0, radius + 0.21, 0));
@@ -147,7 +131,7 @@ TEST_CASE("a bat that gives back all speed throws a resting ball at twice its ow
 TEST_CASE("cloth and ropes do not bounce, whatever a collider's restitution") {
     const auto run = [](lks_fixed restitution) {
         World world(world_def(60, 8));
-        lks_collider_def def = ground(LKS_SHAPE_PLANE);
+        lks_collider_def def = collider_below_origin(LKS_SHAPE_PLANE);
         def.restitution = restitution;
         world.add(def);
         Net net;

@@ -10,12 +10,6 @@ using namespace support;
 
 namespace {
 
-double error_of(const World& world, lks_joint_id joint) {
-    lks_fixed error = 0;
-    REQUIRE(lks_joint_error(world, joint, &error) == LKS_OK);
-    return metres(error);
-}
-
 lks_joint_def distance(double least, double most) {
     lks_joint_def joint = lks_default_joint_def();
     joint.kind = LKS_JOINT_DISTANCE;

@@ -31,19 +31,11 @@ const Case cases[] = {
     {"two groups above zero, empty masks", {1, 0, 5}, {1, 0, 6}, false},
 };
 
-// Each shape with its top at the origin.
 lks_collider_def ground(std::uint32_t shape, const lks_filter& filter) {
-    lks_collider_def def = lks_default_collider_def();
-    def.shape = shape;
-    def.half_length = fixed(0.25);
-    def.transform.position.y = shape == LKS_SHAPE_PLANE     ? 0
-                               : shape == LKS_SHAPE_CAPSULE ? fixed(-0.75)
-                                                            : fixed(-0.5);
+    lks_collider_def def = collider_below_origin(shape);
     def.filter = filter;
     return def;
 }
-
-constexpr std::uint32_t all_shapes[] = {LKS_SHAPE_PLANE, LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE, LKS_SHAPE_BOX};
 
 // Whether two humanoids that drift into each other push each other.
 bool meet(std::int32_t of_bones, std::int32_t of_first, std::int32_t of_second) {
@@ -86,7 +78,7 @@ TEST_CASE("categories, masks and groups say which bodies collide") {
 
 TEST_CASE("categories, masks and groups say which bodies a collider stops") {
     for (const Case& c : cases) {
-        for (const std::uint32_t shape : all_shapes) {
+        for (const std::uint32_t shape : collider_shapes) {
             for (const bool body_is_a : {true, false}) {
                 World world(world_def(60, 8));
                 world.add(ground(shape, body_is_a ? c.b : c.a));
@@ -135,7 +127,7 @@ TEST_CASE("a collider whose mask lacks the particles' category is not met by clo
     chain.particle_mass = 0.1;
     const Asset rope = chain.build();
     for (const auto& c : filters) {
-        for (const std::uint32_t shape : all_shapes) {
+        for (const std::uint32_t shape : collider_shapes) {
             // Ropes that are near a body go through the tick together with it.
             for (const bool beside_body : {false, true}) {
                 World world(world_def(60, 8));

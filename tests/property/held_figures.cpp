@@ -12,14 +12,6 @@ using namespace support;
 
 namespace {
 
-double whole_energy(const World& world, const lks_body_id* bodies, std::size_t count) {
-    double sum = energy_of(world);
-    for (std::size_t i = 0; i < count; ++i) {
-        sum += 9.81 * mass_of(world, bodies[i]) * state_of(world, bodies[i]).position.y;
-    }
-    return sum;
-}
-
 // A figure of lockstitch/ragdoll.h high above everything, its bones thrown all ways, but one that is led.
 template <typename Ready>
 class LedFigure {
@@ -53,9 +45,7 @@ public:
     void step() {
         world_.step();
         for (std::size_t i = 0; i < joints_.size(); ++i) {
-            lks_fixed error = 0;
-            REQUIRE(lks_joint_error(world_, joints_[i], &error) == LKS_OK);
-            apart_ = std::max(apart_, metres(error));
+            apart_ = std::max(apart_, error_of(world_, joints_[i]));
             // Joints are those of the bones behind the first.
             const lks_bone& bone = ready_.bones[i + 1];
             lks_fixed swing = 0;
@@ -107,9 +97,9 @@ public:
     void step() {
         world_.step();
         for (const lks_joint_id joint : joints_) {
-            apart_ = std::max(apart_, error_of(joint));
+            apart_ = std::max(apart_, error_of(world_, joint));
         }
-        apart_ = std::max(apart_, error_of(hold_));
+        apart_ = std::max(apart_, error_of(world_, hold_));
         const double energy = whole_energy(world_, bodies_, LKS_HUMANOID_BONES);
         rise_ = std::max(rise_, energy - least_);
         least_ = std::min(least_, energy);
@@ -119,12 +109,6 @@ public:
     double rise() const { return rise_; }   // J, above the least before
 
 private:
-    double error_of(lks_joint_id joint) const {
-        lks_fixed error = 0;
-        REQUIRE(lks_joint_error(world_, joint, &error) == LKS_OK);
-        return metres(error);
-    }
-
     World& world_;
     Humanoid humanoid_;
     lks_body_id bodies_[LKS_HUMANOID_BONES]{};

@@ -15,12 +15,6 @@ namespace {
 constexpr double g = 9.81;
 const double pi = std::acos(-1.0);
 
-double error_of(const World& world, lks_joint_id joint) {
-    lks_fixed error = 0;
-    REQUIRE(lks_joint_error(world, joint, &error) == LKS_OK);
-    return metres(error);
-}
-
 struct Angles {
     double swing, twist;
 };

@@ -60,10 +60,9 @@ public:
         world_.step();
         limit_now_ = 0;
         for (std::size_t i = 0; i < joints_.size(); ++i) {
-            lks_fixed error = 0;
-            REQUIRE(lks_joint_error(world_, joints_[i], &error) == LKS_OK);
-            sum_ += metres(error);
-            worst_ = std::max(worst_, metres(error));
+            const double error = error_of(world_, joints_[i]);
+            sum_ += error;
+            worst_ = std::max(worst_, error);
             ++count_;
             limit_now_ = std::max(limit_now_, beyond(i));
         }
@@ -79,13 +78,7 @@ public:
     }
 
     // Kinetic and potential.
-    double energy() const {
-        double sum = energy_of(world_);
-        for (const lks_body_id body : bodies_) {
-            sum += mass_of(world_, body) * 9.81 * state_of(world_, body).position.y;
-        }
-        return sum;
-    }
+    double energy() const { return whole_energy(world_, bodies_.data(), bodies_.size()); }
 
     // How deep any of them is in another, or in what stands about, now: of balls along capsules' axes and of
     // boxes' corners. Neighbours share their joint's place.

@@ -138,10 +138,41 @@ inline double mass_of(const World& world, lks_body_id body) {
     return metres(mass);
 }
 
+inline double error_of(const World& world, lks_joint_id joint) {
+    lks_fixed error = 0;
+    REQUIRE(lks_joint_error(world, joint, &error) == LKS_OK);
+    return metres(error);
+}
+
 inline double energy_of(const World& world) {
     lks_fixed energy = 0;
     REQUIRE(lks_world_kinetic_energy(world, &energy) == LKS_OK);
     return lks_fixed_to_double(energy);
+}
+
+// Kinetic, and potential of these.
+inline double whole_energy(const World& world, const lks_body_id* bodies, std::size_t count) {
+    double sum = energy_of(world);
+    for (std::size_t i = 0; i < count; ++i) {
+        sum += mass_of(world, bodies[i]) * 9.81 * state_of(world, bodies[i]).position.y;
+    }
+    return sum;
+}
+
+inline constexpr std::uint32_t collider_shapes[] = {LKS_SHAPE_PLANE, LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE,
+                                                    LKS_SHAPE_BOX};
+
+// A static one with its top at the origin; a capsule lies.
+inline lks_collider_def collider_below_origin(std::uint32_t shape) {
+    lks_collider_def def = lks_default_collider_def();
+    def.shape = shape;
+    def.half_length = fixed(2);
+    def.half_extents = fixed(1, 0.5, 1);
+    def.transform.position.y = shape == LKS_SHAPE_PLANE ? 0 : fixed(-0.5);
+    if (shape == LKS_SHAPE_CAPSULE) {
+        def.transform.rotation = about(0, 0, 1, 90);
+    }
+    return def;
 }
 
 } // namespace support

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "fixed/formats.h"
 #include "fixed/vector.h"
 
 namespace lks {
@@ -19,6 +20,9 @@ struct HeldRow {
 
     bool is_limit() const { return kind != Kind::turn; }
 };
+
+// Radians, World: what is turned by no more is left to rows that go in turn. An eighth of a degree.
+inline constexpr std::int64_t far_turned = (std::int64_t{1} << world_fraction_bits) / 458;
 
 // Of a fixed joint, or of a hinge with its limit.
 inline constexpr std::uint32_t most_held_rows = 3;

@@ -19,9 +19,7 @@ using fixed::Vec3;
 constexpr std::int64_t one = std::int64_t{1} << tree_fraction_bits;
 constexpr int point_rows = 3;
 
-// Radians, World: what is turned by no more is left to rows that go in turn. An eighth of a degree.
-constexpr std::int64_t far_turned = (std::int64_t{1} << world_fraction_bits) / 458;
-// What is turned by more is turned back in several steps: a quarter.
+// Radians, World: what is turned by more is turned back in several steps: a quarter.
 constexpr std::int64_t greatest_turn = std::int64_t{1} << (world_fraction_bits - 2);
 // What a limit may be exceeded by for that it need not push.
 constexpr std::int64_t nearly_nothing = (std::int64_t{1} << world_fraction_bits) / 1000000;
@@ -128,7 +126,7 @@ public:
             const Body& a = body_a(joint);
             const Body& b = body_b(joint);
             far = far || turned_away(joint, a, b, false) > far_turned ||
-                  beyond_limits(joint, a, b) > far_turned;
+                  exceeded_limits(joint, a, b, false) > far_turned;
         });
         return far;
     }

@@ -114,6 +114,21 @@ bool find_twist(const Joint& joint, const Body& a, const Body& b, std::int64_t& 
     return true;
 }
 
+// In a substep what was exceeded when it began stays so.
+std::int64_t allowed_swing(const Joint& joint, const Swing& swing, bool in_substep) {
+    return in_substep ? std::max(swing.limit, joint.swing_start) : swing.limit;
+}
+
+struct AllowedTwist {
+    std::int64_t most;
+    std::int64_t least;
+};
+
+AllowedTwist allowed_twist(const Joint& joint, bool in_substep) {
+    return in_substep ? AllowedTwist{joint.twist_most, joint.twist_least}
+                      : AllowedTwist{joint.constants.twist_max, joint.constants.twist_min};
+}
+
 // About the middle of both axes.
 bool twist_axis(const Joint& joint, const Body& a, const Body& b, Direction& axis) {
     const auto [u, v] = axes_of(joint, a, b);
@@ -220,18 +235,19 @@ Vec3 limit_push(const Joint& joint, const Body& a, const Body& b) {
     return pushed;
 }
 
-std::int64_t exceeded_limits(const Joint& joint, const Body& a, const Body& b) {
+std::int64_t exceeded_limits(const Joint& joint, const Body& a, const Body& b, bool in_substep) {
     if (are_soft(joint)) {
         return 0;
     }
     std::int64_t beyond = 0;
     Swing swing{};
     if (joint.constants.swing_limited && find_swing(joint, a, b, swing)) {
-        beyond = swing.angle - std::max(swing.limit, joint.swing_start);
+        beyond = swing.angle - allowed_swing(joint, swing, in_substep);
     }
     std::int64_t twist = 0;
     if (joint.constants.twist_limited && find_twist(joint, a, b, twist)) {
-        beyond = std::max({beyond, twist - joint.twist_most, joint.twist_least - twist});
+        const AllowedTwist allowed = allowed_twist(joint, in_substep);
+        beyond = std::max({beyond, twist - allowed.most, allowed.least - twist});
     }
     return beyond;
 }
@@ -262,23 +278,6 @@ bool undo_limits(const Joint& joint, Body& a, Body& b) {
     return beyond > far_beyond;
 }
 
-std::int64_t beyond_limits(const Joint& joint, const Body& a, const Body& b) {
-    if (are_soft(joint)) {
-        return 0;
-    }
-    const JointConstants& c = joint.constants;
-    std::int64_t beyond = 0;
-    Swing swing{};
-    if (c.swing_limited && find_swing(joint, a, b, swing)) {
-        beyond = swing.angle - swing.limit;
-    }
-    std::int64_t twist = 0;
-    if (c.twist_limited && find_twist(joint, a, b, twist)) {
-        beyond = std::max({beyond, twist - c.twist_max, c.twist_min - twist});
-    }
-    return beyond;
-}
-
 std::uint32_t limit_rows(const Joint& joint, const Body& a, const Body& b, bool in_substep,
                          HeldRow (&rows)[most_held_rows], std::uint32_t count) {
     if (are_soft(joint)) {
@@ -287,16 +286,17 @@ std::uint32_t limit_rows(const Joint& joint, const Body& a, const Body& b, bool 
     const JointConstants& c = joint.constants;
     if (c.swing_limited) {
         const Swing swing = measure_swing(joint, a, b);
-        const std::int64_t limit = in_substep ? std::max(swing.limit, joint.swing_start) : swing.limit;
-        rows[count++] = {HeldRow::Kind::swing, -swing.axis, limit - swing.angle,
+        rows[count++] = {HeldRow::Kind::swing, -swing.axis,
+                         allowed_swing(joint, swing, in_substep) - swing.angle,
                          in_substep ? joint.swing_push : 0};
     }
     std::int64_t twist = 0;
     Direction axis{};
     if (c.twist_limited && measure_twist(joint, a, b, twist) && twist_axis(joint, a, b, axis)) {
         const std::int64_t push = in_substep ? joint.twist_push : 0;
-        const std::int64_t to_most = (in_substep ? joint.twist_most : c.twist_max) - twist;
-        const std::int64_t to_least = twist - (in_substep ? joint.twist_least : c.twist_min);
+        const AllowedTwist allowed = allowed_twist(joint, in_substep);
+        const std::int64_t to_most = allowed.most - twist;
+        const std::int64_t to_least = twist - allowed.least;
         if (push < 0 || (push == 0 && to_most < to_least)) {
             rows[count++] = {HeldRow::Kind::most_twist, -axis, to_most, -push};
         } else {

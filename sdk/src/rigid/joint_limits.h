@@ -22,8 +22,9 @@ void add_to_limits(Joint& joint, std::int32_t share);
 void project_limits(Joint& joint, Body& a, Body& b);
 // How they have pushed in this substep.
 fixed::Vec3 limit_push(const Joint& joint, const Body& a, const Body& b);
-// By how much limits without compliance were exceeded in this substep: World, radians; or nothing above zero.
-std::int64_t exceeded_limits(const Joint& joint, const Body& a, const Body& b);
+// By how much limits without compliance are exceeded, in this substep or at all: World, radians; or nothing
+// above zero.
+std::int64_t exceeded_limits(const Joint& joint, const Body& a, const Body& b, bool in_substep);
 // After the velocities: what is left. True: it was more than half a degree.
 bool undo_limits(const Joint& joint, Body& a, Body& b);
 
@@ -31,8 +32,6 @@ bool undo_limits(const Joint& joint, Body& a, Body& b);
 // all. How many there are then.
 std::uint32_t limit_rows(const Joint& joint, const Body& a, const Body& b, bool in_substep,
                          HeldRow (&rows)[most_held_rows], std::uint32_t count);
-// By how much they are exceeded, in whatever substep: nothing above zero if they are not.
-std::int64_t beyond_limits(const Joint& joint, const Body& a, const Body& b);
 // What such a row has pushed now; not less than zero.
 void set_limit_push(Joint& joint, HeldRow::Kind kind, std::int64_t push);
 

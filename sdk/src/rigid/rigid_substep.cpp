@@ -357,12 +357,11 @@ void RigidSubstep::mark_hard_impacts() {
 
 // Of those that are held: by more than an eighth of a degree.
 void RigidSubstep::mark_exceeded_limits() {
-    constexpr std::int64_t far = (std::int64_t{1} << world_fraction_bits) / 458;
     for (const FigureRange& figure : scene_.figure_ranges) {
         if (figure.is_held) {
             for_each_joint(figure, [&](const Joint& joint, const Body& a, const Body& b) {
                 const std::int64_t turned = joint.in_held_tree ? turned_away(joint, a, b, true) : 0;
-                if (turned > far || exceeded_limits(joint, a, b) > far) {
+                if (turned > far_turned || exceeded_limits(joint, a, b, true) > far_turned) {
                     mark_strained(figure_of(scene_.figure_parts[figure.begin()]));
                 }
             });

@@ -35,17 +35,12 @@ inline void factor(const std::int64_t (&matrix)[most_rows][most_rows], RowSystem
     }
 }
 
-// L⁻¹ of it.
-inline void solve_lower(const RowSystem& system, std::int64_t (&rows)[most_rows]) {
+inline void solve(const RowSystem& system, std::int64_t (&rows)[most_rows]) {
     for (int i = 0; i < system.count; ++i) {
         for (int k = 0; k < i; ++k) {
             rows[i] = tree_detail::minus(rows[i], multiply_32(system.lower[i][k], rows[k]));
         }
     }
-}
-
-inline void solve(const RowSystem& system, std::int64_t (&rows)[most_rows]) {
-    solve_lower(system, rows);
     for (int i = system.count; i-- > 0;) {
         rows[i] = divide(rows[i], system.pivots[i]);
         for (int k = i + 1; k < system.count; ++k) {

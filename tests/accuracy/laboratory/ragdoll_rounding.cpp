@@ -90,10 +90,10 @@ TEST_CASE("rounding on the stairs at 5 substeps is below a tenth of what places 
     std::printf(
         "stairs, 5 substeps, 18 ticks: joints %.1e mm, rounding of it %.1e; places %.1e m, %.1e; float32 "
         "%.1e\n",
-        method[0], joints, method[stairs.discretisation], places, errors_of("float32")[stairs.rounding]);
+        method[0], joints, method[stairs.discretisation()], places, errors_of("float32")[stairs.rounding]);
     CHECK(joints > 0);
     CHECK(joints < method[0] / 10);
     CHECK(places > 0);
-    CHECK(places < method[stairs.discretisation] / 10);
+    CHECK(places < method[stairs.discretisation()] / 10);
     CHECK(places < errors_of("float32")[stairs.rounding]);
 }
