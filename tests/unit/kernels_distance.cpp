@@ -86,7 +86,7 @@ struct Problem {
     bool short_runs;                     // kernels may believe it or not
     std::vector<std::int64_t> positions; // x, y, z, starts
     std::vector<std::int64_t> multipliers;
-    std::vector<std::uint32_t> rests, shares_a, shares_b, relaxations;
+    std::vector<std::uint32_t> rests, shares, parts_b, relaxations;
     ConstraintRange unequal_shares{};
     bool few_unequal; // the same
     DistanceParameters parameters{};
@@ -160,12 +160,12 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
         const auto share = static_cast<std::uint32_t>(random.bits() >> 33);
         const bool may_differ = is_in(problem.unequal_shares, static_cast<std::uint32_t>(i));
         const bool equal = !may_differ || random.bits() % 8 != 0;
-        problem.shares_a.push_back(share);
-        problem.shares_b.push_back(equal ? share : static_cast<std::uint32_t>(random.bits() >> 33));
+        problem.parts_b.push_back(
+            static_cast<std::uint32_t>(equal ? direction_one / 2 : random.bits() % (direction_one + 1)));
         if (random.bits() % 16 == 0 && may_differ) {
-            problem.shares_a.back() = 0;
-            problem.shares_b.back() = unit_one - 1;
+            problem.parts_b.back() = random.below(2) == 0 ? 0 : direction_one;
         }
+        problem.shares.push_back(problem.parts_b.back() == half_part ? share / 2 : share);
         problem.relaxations.push_back(static_cast<std::uint32_t>(random.bits() >> 33));
         problem.multipliers.push_back(
             random.below(4) == 0 ? 0 : signed_below(random, calm ? rest_bits + shift : 58));
@@ -212,8 +212,8 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
     }
     // Kernels read on, and must not mind what they find.
     problem.rests.resize(padded, UINT32_MAX);
-    problem.shares_a.resize(padded, unit_one - 1);
-    problem.shares_b.resize(padded, unit_one - 1);
+    problem.shares.resize(padded, unit_one / 2);
+    problem.parts_b.resize(padded, direction_one);
     problem.relaxations.resize(padded, unit_one - 1);
     return problem;
 }
@@ -246,8 +246,8 @@ DistanceTask make_task(const Batch& batch, const Kind& kind, Problem& problem, c
     task.parameters = problem.parameters;
     task.constraints = batch.constraints.data();
     task.rest_mantissas = problem.rests.data();
-    task.shares_a = problem.shares_a.data();
-    task.shares_b = problem.shares_b.data();
+    task.shares = problem.shares.data();
+    task.parts_b = problem.parts_b.data();
     task.relaxations = kind.relaxed ? problem.relaxations.data() : nullptr;
     task.arrays = {x,
                    x + n,
@@ -454,6 +454,7 @@ TEST_CASE("kernels: a part of a run writes nothing behind its end, where others 
     const Constraint none{};
     const std::vector<std::uint32_t> rests(2 * widest_group, 0x80000000u); // an eighth of a metre
     const std::vector<std::uint32_t> shares(2 * widest_group, unit_one / 2);
+    const std::vector<std::uint32_t> parts(2 * widest_group, direction_one / 2);
     const auto projected = [&](const Kernels& kernels) {
         std::vector<std::int64_t> axes(6 * widest_group, 0);
         std::fill_n(axes.begin() + part, part, coordinate_one / 10);
@@ -467,7 +468,8 @@ TEST_CASE("kernels: a part of a run writes nothing behind its end, where others 
         task.part_count = 1;
         task.constraints = &none;
         task.rest_mantissas = rests.data();
-        task.shares_a = task.shares_b = shares.data();
+        task.shares = shares.data();
+        task.parts_b = parts.data();
         task.parameters = {26, 4, 35, 0, unit_one, 0};
         task.arrays = {axes.data(),
                        axes.data() + 2 * widest_group,

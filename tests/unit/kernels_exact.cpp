@@ -57,12 +57,15 @@ std::int64_t one_of(test::Random& random, const std::int64_t (&values)[n]) {
 struct Edge {
     std::int64_t a[3], b[3], start_a[3], start_b[3];
     std::int64_t multiplier;
-    std::uint32_t rest, share_a, share_b, relaxation;
+    std::uint32_t rest, share, part_b, relaxation;
     DistanceParameters parameters;
     bool soft, damped, records, relaxed;
 };
 
 constexpr std::int64_t unit_edges[] = {0, 1, 2, unit_one / 2 - 1, unit_one / 2, unit_one - 2, unit_one - 1};
+
+constexpr std::int64_t part_edges[] = {
+    0, 1, direction_one / 2 - 1, direction_one / 2 + 1, direction_one - 1, direction_one};
 
 std::uint32_t any_unit(test::Random& random) {
     return random.below(3) == 0 ? static_cast<std::uint32_t>(random.bits() >> 33)
@@ -126,8 +129,10 @@ Edge any_edge(test::Random& random) {
     }
     edge.multiplier = edge_value(random, shift);
     edge.rest = random.below(2) == 0 ? UINT32_MAX >> random.below(4) : 0x80000000u >> random.below(4);
-    edge.share_a = any_unit(random);
-    edge.share_b = random.below(2) == 0 ? edge.share_a : any_unit(random);
+    edge.part_b = random.below(2) == 0   ? direction_one / 2
+                  : random.below(3) == 0 ? static_cast<std::uint32_t>(one_of(random, part_edges))
+                                         : static_cast<std::uint32_t>(random.below(direction_one + 1));
+    edge.share = edge.part_b == half_part ? (any_unit(random) + 1) / 2 : any_unit(random);
     edge.relaxation = any_unit(random);
     return edge;
 }
@@ -148,13 +153,17 @@ void project_exactly(Edge& edge) {
             return d >= -power(30) && d < power(30);
         });
     };
-    const int extra = fits() ? 0 : static_cast<int>(std::bit_width(largest)) - 30 - p.difference_shift;
+    const bool far = !fits();
+    const int extra = !far ? 0 : static_cast<int>(std::bit_width(largest)) - 30 - p.difference_shift;
     const int scale = p.difference_shift + extra;
     const B one = power(direction_fraction_bits);
     B d[3];
     B u{};
     for (int axis = 0; axis < 3; ++axis) {
         d[axis] = rounded(wide[axis], scale);
+        if (far) {
+            d[axis] = between(d[axis], big(1) - one, one - big(1));
+        }
         u = u + d[axis] * d[axis];
     }
     if (u.is_zero()) {
@@ -187,19 +196,13 @@ void project_exactly(Edge& edge) {
         const B root = between(floored(floored(u << (2 * k), 32) * y, 31), B{}, big(INT32_MAX));
         edge.multiplier = low(big(edge.multiplier) + floored((f + f) * root, 30 + k - scale));
     }
-    const bool alike = edge.share_a == edge.share_b;
-    const auto correction = [&](std::uint32_t share, const B& difference) {
-        const B product = B::from_u64(share) * f;
-        if (alike) {
-            return rounded(difference * rounded(product, p.gain_shift), p.product_shift - extra);
-        }
-        const B high = floored(product, p.gain_shift);
-        const B rest = floored(product, p.gain_shift - 31) - (high << 31);
-        return rounded(difference * high + floored(difference * rest, 31), p.product_shift - extra);
-    };
+    const B gain = rounded(B::from_u64(edge.share) * f, p.gain_shift);
     for (int axis = 0; axis < 3; ++axis) {
-        edge.a[axis] = low(big(edge.a[axis]) + correction(edge.share_a, d[axis]));
-        edge.b[axis] = low(big(edge.b[axis]) - correction(edge.share_b, d[axis]));
+        const B moves = rounded(d[axis] * gain, p.product_shift - extra);
+        const bool alike = edge.part_b == half_part;
+        const B of_b = alike ? moves : rounded(moves * B::from_u64(edge.part_b), direction_fraction_bits);
+        edge.a[axis] = low(big(edge.a[axis]) + (alike ? moves : moves - of_b));
+        edge.b[axis] = low(big(edge.b[axis]) - of_b);
     }
 }
 
@@ -211,8 +214,8 @@ public:
             fill(axis, edge.a[axis], edge.b[axis]);
             fill(axis + 3, edge.start_a[axis], edge.start_b[axis]);
         }
-        const std::vector<std::uint32_t> rests(room, edge.rest), shares_a(room, edge.share_a),
-            shares_b(room, edge.share_b), relaxations(room, edge.relaxation);
+        const std::vector<std::uint32_t> rests(room, edge.rest), shares(room, edge.share),
+            parts_b(room, edge.part_b), relaxations(room, edge.relaxation);
         std::vector<Constraint> ends;
         for (std::uint32_t i = 0; i < count; ++i) {
             ends.push_back({i, i + count});
@@ -224,14 +227,14 @@ public:
         part.run_count = 1;
         part.whole = true;
         part.first_single = length;
-        part.unequal_shares = {0, edge.share_a == edge.share_b ? 0 : count};
+        part.unequal_shares = {0, edge.part_b == direction_one / 2 ? 0 : count};
         DistanceTask task{};
         task.parts = &part;
         task.part_count = 1;
         task.constraints = ends.data();
         task.rest_mantissas = rests.data();
-        task.shares_a = shares_a.data();
-        task.shares_b = shares_b.data();
+        task.shares = shares.data();
+        task.parts_b = parts_b.data();
         task.relaxations = edge.relaxed ? relaxations.data() : nullptr;
         task.parameters = edge.parameters;
         task.arrays = {axes_[0].data(),

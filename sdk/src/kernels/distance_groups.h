@@ -114,16 +114,10 @@ public:
 
     template <bool alike_throughout, typename Access>
     LKS_FORCE_INLINE void move(const Access& at, const StagedGroup<L>& group) const {
-        const N share_a = at.load(task_.shares_a);
-        if constexpr (alike_throughout) {
-            move_alike(at, group.d, group.f, share_a);
-            return;
-        }
-        const N share_b = at.load(task_.shares_b);
-        if (F::all_equal(share_a, share_b)) {
-            move_alike(at, group.d, group.f, share_a);
+        if (alike_throughout || alike(at)) {
+            move_by_gain(at, group.d, gain(at, group.f));
         } else {
-            move_by_share(at, group.d, group.f, share_a, share_b);
+            move_by_parts(at, group.d, gain_of_both(at, group.f));
         }
     }
 
@@ -136,25 +130,33 @@ public:
     }
 
     // From the sums of a group and f of the one before it the sums of the next and f of its own.
-    // Between the steps of its square root the differences of the next are found, and the one before moves,
-    // as both ends are alike. `in_octave`: the group's lengths are.
-    template <bool in_octave, typename Access>
+    // Between the steps of its square root the differences of the next are found, and the one before moves:
+    // both ends alike, or each by its part. `in_octave`: the group's lengths are.
+    template <bool in_octave, bool by_parts, typename Access>
     LKS_FORCE_INLINE void roll(const RollingGroup<L, Access>& before, const RollingGroup<L, Access>& now,
                                RollingGroup<L, Access>& next, OfDifferences& sums, N& f) const {
         R beyond = L::set(0);
         OfDifferences of_next;
-        const N gain = rounded_gain_shift_.factors(F::multiply_signed(before.at.load(task_.shares_a), f));
+        const N gain = gain_that<by_parts>(before.at, f);
         const auto meanwhile = [&](int axis) {
             if constexpr (Access::in_rows) {
                 if (axis == 1) {
                     find_each_difference(next.at, next.staged.d, of_next, beyond);
                 } else if (axis == 2) {
-                    move_by_gain(before.at, before.staged.d, gain);
+                    if constexpr (by_parts) {
+                        move_by_parts(before.at, before.staged.d, gain);
+                    } else {
+                        move_by_gain(before.at, before.staged.d, gain);
+                    }
                 }
             } else {
                 find_difference(next.at, differences(next.at, axes_), start_differences(next.at), axis,
                                 next.staged.d, of_next, beyond);
-                move_axis(before.at, axis, before.staged.d[axis], gain);
+                if constexpr (by_parts) {
+                    move_axis_by_parts(before.at, axis, before.staged.d[axis], gain);
+                } else {
+                    move_axis(before.at, axis, before.staged.d[axis], gain);
+                }
             }
         };
         const Aligned<L, 1> aligned = align_sum<in_octave>(sums.u);
@@ -173,12 +175,12 @@ public:
     // Where ends have shares of their own.
     template <typename Access>
     LKS_FORCE_INLINE void move_unequal(const Access& at, const StagedGroup<L>& group, const N& f) const {
-        move_by_share(at, group.d, f, at.load(task_.shares_a), at.load(task_.shares_b));
+        move_by_parts(at, group.d, gain_of_both(at, f));
     }
     // Whether both ends move alike.
     template <typename Access>
     LKS_FORCE_INLINE bool alike(const Access& at) const {
-        return F::all_equal(at.load(task_.shares_a), at.load(task_.shares_b));
+        return F::all_equal(at.load(task_.parts_b), F::constant(half_part));
     }
 
 private:
@@ -457,8 +459,29 @@ private:
     }
 
     template <typename Access>
-    LKS_FORCE_INLINE void move_alike(const Access& at, const N* d, const N& f, const N& share) const {
-        move_by_gain(at, d, rounded_gain_shift_.factors(F::multiply_signed(share, f)));
+    LKS_FORCE_INLINE N gain(const Access& at, const N& f) const {
+        return rounded_gain_shift_.factors(F::multiply_signed(at.load(task_.shares), f));
+    }
+    // As both_movements wants it.
+    template <typename Access>
+    LKS_FORCE_INLINE N gain_of_both(const Access& at, const N& f) const {
+        const N once = gain(at, f);
+        if constexpr (soft) {
+            return once;
+        } else {
+            return F::sum(once, F::where(moves_alike(at.load(task_.parts_b)), once));
+        }
+    }
+    template <bool by_parts, typename Access>
+    LKS_FORCE_INLINE N gain_that(const Access& at, const N& f) const {
+        if constexpr (by_parts) {
+            return gain_of_both(at, f);
+        } else {
+            return gain(at, f);
+        }
+    }
+    LKS_FORCE_INLINE static N moves_alike(const N& part_b) {
+        return F::equal(part_b, F::constant(half_part));
     }
 
     template <typename Access>
@@ -489,46 +512,58 @@ private:
         }
     }
 
-    struct LongGain {
-        N high, low;
-    };
-
-    // Where the shares are equal: the rounded gain, and no bits behind it.
-    LKS_FORCE_INLINE LongGain long_gain(const N& share, const N& f, const G& alike) const {
-        const int count = task_.parameters.gain_shift;
-        const R rounding = L::set(std::int64_t{1} << (count - 1));
-        const typename L::Shift low_count = L::make_shift(count - 31);
-        G product = F::multiply_signed(share, f);
-        product = {L::add(product.a, L::bit_and(rounding, alike.a)),
-                   L::add(product.b, L::bit_and(rounding, alike.b))};
-        const auto low = [&](R value, R none) {
-            return L::and_not(none, L::bit_and(L::shift_right(value, low_count), L::set(INT32_MAX)));
-        };
-        return {SignedShift<L>(count).factors(product),
-                F::low({low(product.a, alike.a), low(product.b, alike.b)})};
+    // Of both ends together: twice what each moves by where they move alike. Handed on by themselves: in one
+    // structure, compilers would copy both movements through memory.
+    LKS_FORCE_INLINE G both_movements(const N& difference, const N& gain_of_both, const N& part_b) const {
+        const G product = F::multiply_signed(difference, gain_of_both);
+        if constexpr (soft) {
+            const G once = to_coordinate(product);
+            const G again = F::wide_where(moves_alike(part_b), once);
+            return {L::add(once.a, again.a), L::add(once.b, again.b)};
+        } else {
+            return product;
+        }
     }
-
-    LKS_FORCE_INLINE G long_product(const N& difference, const LongGain& gain) const {
-        const G high = F::multiply_signed(difference, gain.high);
-        const G low = SignedShift<L>(31)(F::multiply_signed(difference, gain.low));
-        return to_coordinate({L::add(high.a, low.a), L::add(high.b, low.b)});
+    // b's part of them: kernels/distance_scalar.h.
+    LKS_FORCE_INLINE static G part_of(const G& both, const N& part) {
+        constexpr int bits = direction_fraction_bits;
+        const R below = L::set(direction_one - 1);
+        const R half = L::set(direction_one / 2);
+        const G high = F::multiply_signed(
+            F::low({L::template shift_right<bits>(both.a), L::template shift_right<bits>(both.b)}), part);
+        const G low =
+            F::multiply_unsigned(F::low({L::bit_and(both.a, below), L::bit_and(both.b, below)}), part);
+        return {L::add(high.a, L::template shift_right<bits>(L::add(low.a, half))),
+                L::add(high.b, L::template shift_right<bits>(L::add(low.b, half)))};
+    }
+    LKS_FORCE_INLINE static G less(const G& both, const G& of_b) {
+        return {L::subtract(both.a, of_b.a), L::subtract(both.b, of_b.b)};
     }
 
     template <typename Access>
-    LKS_FORCE_INLINE void move_by_share(const Access& at, const N* d, const N& f, const N& share_a,
-                                        const N& share_b) const {
-        const G alike = F::equal(share_a, share_b);
-        const LongGain gain_a = long_gain(share_a, f, alike);
-        const LongGain gain_b = long_gain(share_b, f, alike);
+    LKS_FORCE_INLINE void move_by_parts(const Access& at, const N* d, const N& gain) const {
         if constexpr (Access::in_rows) {
-            at.move(axes_[0], long_product(d[0], gain_a), long_product(d[1], gain_a),
-                    long_product(d[2], gain_a), long_product(d[0], gain_b), long_product(d[1], gain_b),
-                    long_product(d[2], gain_b));
+            const N part = at.load(task_.parts_b);
+            const G x = both_movements(d[0], gain, part);
+            const G y = both_movements(d[1], gain, part);
+            const G z = both_movements(d[2], gain, part);
+            const G x_b = part_of(x, part);
+            const G y_b = part_of(y, part);
+            const G z_b = part_of(z, part);
+            at.move(axes_[0], less(x, x_b), less(y, y_b), less(z, z_b), x_b, y_b, z_b);
         } else {
             for (int axis = 0; axis < 3; ++axis) {
-                at.move(axes_[axis], long_product(d[axis], gain_a), long_product(d[axis], gain_b));
+                move_axis_by_parts(at, axis, d[axis], gain);
             }
         }
+    }
+
+    template <typename Access>
+    LKS_FORCE_INLINE void move_axis_by_parts(const Access& at, int axis, const N& d, const N& gain) const {
+        const N part = at.load(task_.parts_b);
+        const G both = both_movements(d, gain, part);
+        const G of_b = part_of(both, part);
+        at.move(axes_[axis], less(both, of_b), of_b);
     }
 
     DistanceTask task_; // a copy, so that what is stored can't be thought to change it

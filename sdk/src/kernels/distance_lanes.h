@@ -229,17 +229,10 @@ private:
     PartialAccess<L> short_[PartialAccess<L>::together];
 };
 
-// Whether it pays that `count` constraints of a part roll: there are many, and few have ends with shares of
-// their own.
-template <typename L>
-inline bool rolls(const BatchPart& part, std::uint32_t count) {
-    return count >= L::rolls_from && part.few_unequal;
-}
-
-template <typename L, bool mixed, typename Groups, typename Stage>
+template <typename L, Ends ends, typename Groups, typename Stage>
 LKS_NEVER_INLINE void project_rolling(const BatchPart& part, const Groups& groups, const Stage& stages) {
     RunGroups<L, Stage> runs(part, stages);
-    Rolling<L, mixed, RunAccess<L>, Groups, Stage>(groups, stages).project(runs);
+    Rolling<L, ends, RunAccess<L>, Groups, Stage>(groups, stages).project(runs);
     runs.finish();
 }
 
@@ -264,10 +257,11 @@ inline void project_in_stages(const BatchPart& part, const Stage& stages) {
 template <typename L, bool may_roll, typename Groups, typename Stage>
 inline void project_runs(const BatchPart& part, const Groups& groups, const Stage& stages) {
     if constexpr (may_roll) {
-        if (rolls<L>(part, singles(part).first - part.range.first)) {
-            const bool mixed = part.unequal_shares.first != part.unequal_shares.last;
-            mixed ? project_rolling<L, true>(part, groups, stages)
-                  : project_rolling<L, false>(part, groups, stages);
+        if (singles(part).first - part.range.first >= L::rolls_from) {
+            const bool alike = part.unequal_shares.first == part.unequal_shares.last;
+            alike              ? project_rolling<L, Ends::alike>(part, groups, stages)
+            : part.few_unequal ? project_rolling<L, Ends::mixed>(part, groups, stages)
+                               : project_rolling<L, Ends::by_parts>(part, groups, stages);
             return;
         }
     }
@@ -316,15 +310,24 @@ private:
     ConstraintRange& rest_;
 };
 
+// What is left after it.
+template <typename L, Ends ends, typename Groups, typename Stage>
+LKS_NEVER_INLINE ConstraintRange project_rolling_rows(const DistanceTask& task, ConstraintRange rest,
+                                                      const Groups& groups, const Stage& stages) {
+    using Access = RowsAccess<L, true>;
+    ListedGroups<Access> listed(task.constraints, rest);
+    Rolling<L, ends, Access, Groups, Stage>(groups, stages).project(listed);
+    return rest;
+}
+
 template <typename L, bool may_roll, typename Groups, typename Stage>
 inline void project_rows(const DistanceTask& task, const BatchPart& part, const Groups& groups,
                          const Stage& stages) {
     ConstraintRange rest = part.range;
     if constexpr (may_roll) {
-        if (rolls<L>(part, rest.last - rest.first)) {
-            using Access = RowsAccess<L, true>;
-            ListedGroups<Access> listed(task.constraints, rest);
-            Rolling<L, false, Access, Groups, Stage>(groups, stages).project(listed);
+        if (rest.last - rest.first >= L::rolls_from) {
+            rest = part.few_unequal ? project_rolling_rows<L, Ends::alike>(task, rest, groups, stages)
+                                    : project_rolling_rows<L, Ends::by_parts>(task, rest, groups, stages);
         }
     }
     project_listed<L, RowsAccess<L, false>>(task, rest, stages);

@@ -16,9 +16,15 @@
 namespace lks {
 namespace {
 
-// `mixed`: some groups have ends that do not move alike. Otherwise they are rare, and go apart: that there
-// may be some costs all others 2 % of their time.
-template <typename L, bool mixed, typename Access, typename Groups, typename Stage>
+// How the ends of groups move that roll.
+enum class Ends : std::uint8_t {
+    alike,   // those that don't are rare, and go apart: that there may be some costs all others 2 % of their
+             // time
+    mixed,   // some do not
+    by_parts // each by its part, which may be the same
+};
+
+template <typename L, Ends ends, typename Access, typename Groups, typename Stage>
 class Rolling {
 public:
     Rolling(const Groups& groups, const Stage& stages) : groups_(groups), stages_(stages) {}
@@ -69,11 +75,11 @@ private:
         auto sums = sums_;
         Factors<L> f = f_;
         do {
-            if (mixed && before->unequal) {
+            if (ends == Ends::mixed && before->unequal) {
                 groups.move_unequal(before->at, before->staged, f);
                 f = FactorsOf<L>::none();
             }
-            groups.template roll<in_octave>(*before, *now, *next, sums, f);
+            groups.template roll<in_octave, ends == Ends::by_parts>(*before, *now, *next, sums, f);
             look_at(*next);
             RollingGroup<L, Access>* const free = before;
             before = now;
@@ -90,8 +96,8 @@ private:
 
     LKS_FORCE_INLINE void look_at(RollingGroup<L, Access>& group) const {
         const auto unequal = [&] { return stages_.may_differ(group.at) && !groups_.alike(group.at); };
-        group.apart = group.staged.plain || (!mixed && unequal());
-        group.unequal = mixed && !group.apart && unequal();
+        group.apart = group.staged.plain || (ends == Ends::alike && unequal());
+        group.unequal = ends == Ends::mixed && !group.apart && unequal();
     }
 
     LKS_NEVER_INLINE void settle(RollingGroup<L, Access>& group) {

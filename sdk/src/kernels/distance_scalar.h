@@ -53,7 +53,7 @@ inline std::int64_t shift_either_way(std::int64_t value, int left) {
 
 // The difference of two positions in 32-bit units of 2^(shift + extra) coordinate units.
 struct NarrowDifference {
-    std::int64_t x, y, z; // each within ±2^30
+    std::int64_t x, y, z; // each from -2^30 to 2^30 - 1
     int extra;
 };
 
@@ -63,8 +63,12 @@ inline NarrowDifference narrow_far(const Difference& d, int shift) {
     const std::int64_t largest = (d.x ^ (d.x >> 63)) | (d.y ^ (d.y >> 63)) | (d.z ^ (d.z >> 63));
     // One bit of room for the rounding: |d| < 2^30 afterwards.
     const int extra = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(largest))) - 30 - shift;
-    return {shift_right_rounded_any(d.x, shift + extra), shift_right_rounded_any(d.y, shift + extra),
-            shift_right_rounded_any(d.z, shift + extra), extra};
+    // Below it also where that rounds up: what both ends move together fits into 64 bits.
+    const auto narrow = [&](std::int64_t wide) {
+        return std::clamp<std::int64_t>(shift_right_rounded_any(wide, shift + extra), 1 - direction_one,
+                                        direction_one - 1);
+    };
+    return {narrow(d.x), narrow(d.y), narrow(d.z), extra};
 }
 
 // value / len in Direction format, where 1/len = y·2^(k−62); |value| ≤ 2^31.
@@ -103,11 +107,18 @@ LKS_FORCE_INLINE std::int64_t relative_growth(const NarrowDifference& d, const D
     return (aligned * reciprocal) >> 28;
 }
 
+// movement·part to the nearest, for a part in [0, 1] in Direction format.
+LKS_FORCE_INLINE std::int64_t part_of(std::int64_t movement, std::uint32_t part) {
+    const std::int64_t low = (movement & (direction_one - 1)) * static_cast<std::int64_t>(part);
+    return wrapping_add(wrapping_multiply(movement >> direction_fraction_bits, part),
+                        shift_right_rounded(low, direction_fraction_bits));
+}
+
 template <bool soft, bool damped, bool multiplier>
 class Projection {
 public:
     explicit Projection(const DistanceTask& task)
-        : rest_mantissas_(task.rest_mantissas), shares_a_(task.shares_a), shares_b_(task.shares_b),
+        : rest_mantissas_(task.rest_mantissas), shares_(task.shares), parts_b_(task.parts_b),
           relaxations_(task.relaxations), parameters_(task.parameters),
           difference_rounding_(std::int64_t{1} << (task.parameters.difference_shift - 1)),
           gain_rounding_(std::int64_t{1} << (task.parameters.gain_shift - 1)), arrays_(task.arrays) {}
@@ -217,26 +228,34 @@ private:
     template <bool far>
     LKS_FORCE_INLINE void apply(std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b,
                                 const NarrowDifference& d, std::int64_t f) const {
-        const std::uint32_t share = shares_a_[constraint];
-        if (share == shares_b_[constraint]) {
-            move_alike<far>(share, a, b, d, f);
+        const std::int64_t gain =
+            (static_cast<std::int64_t>(shares_[constraint]) * f + gain_rounding_) >> parameters_.gain_shift;
+        const std::uint32_t part = parts_b_[constraint];
+        if (part == half_part) {
+            move_alike<far>(gain, a, b, d);
         } else {
-            move_by_share(share, shares_b_[constraint], a, b, d, f);
+            move_by_parts<far>(gain, part, a, b, d);
+        }
+    }
+
+    // Of each end where both move alike, of both together elsewhere.
+    template <bool far>
+    LKS_FORCE_INLINE std::int64_t movement(std::int64_t difference, std::int64_t gain, int extra) const {
+        const std::int64_t product = difference * gain;
+        if constexpr (soft || far) {
+            const int left = extra - parameters_.product_shift;
+            return left == 0 ? product : shift_either_way(product, left);
+        } else {
+            return product;
         }
     }
 
     // Both ends by the same rounded correction: linear momentum is kept to the bit.
     template <bool far>
-    LKS_FORCE_INLINE void move_alike(std::uint32_t share, std::ptrdiff_t a, std::ptrdiff_t b,
-                                     const NarrowDifference& d, std::int64_t f) const {
-        const std::int64_t gain =
-            (static_cast<std::int64_t>(share) * f + gain_rounding_) >> parameters_.gain_shift;
+    LKS_FORCE_INLINE void move_alike(std::int64_t gain, std::ptrdiff_t a, std::ptrdiff_t b,
+                                     const NarrowDifference& d) const {
         const auto move = [&](std::int64_t* axis, std::int64_t difference) {
-            std::int64_t correction = difference * gain;
-            if constexpr (soft || far) {
-                const int left = d.extra - parameters_.product_shift;
-                correction = left == 0 ? correction : shift_either_way(correction, left);
-            }
+            const std::int64_t correction = movement<far>(difference, gain, d.extra);
             std::int64_t* x = as_it_stands(axis);
             x[a] = wrapping_add(x[a], correction);
             x[b] = wrapping_subtract(x[b], correction);
@@ -246,39 +265,25 @@ private:
         move(arrays_.z, d.z);
     }
 
-    // Each end by its share, with 31 more bits of the gain: gains rounded apart would push the whole object.
-    void move_by_share(std::uint32_t share_a, std::uint32_t share_b, std::ptrdiff_t a, std::ptrdiff_t b,
-                       const NarrowDifference& d, std::int64_t f) const {
-        const LongGain gain_a = long_gain(share_a, f);
-        const LongGain gain_b = long_gain(share_b, f);
-        const int left = d.extra - parameters_.product_shift;
-        const auto correction = [left](std::int64_t difference, const LongGain& gain) {
-            const std::int64_t product = difference * gain.high + ((difference * gain.low) >> 31);
-            return left == 0 ? product : shift_either_way(product, left);
-        };
-        const auto move = [&](std::int64_t* x, std::int64_t difference) {
-            x[a] = wrapping_add(x[a], correction(difference, gain_a));
-            x[b] = wrapping_subtract(x[b], correction(difference, gain_b));
+    // b by its part of both movements, and a by what is left of them.
+    template <bool far>
+    LKS_FORCE_INLINE void move_by_parts(std::int64_t gain, std::uint32_t part, std::ptrdiff_t a,
+                                        std::ptrdiff_t b, const NarrowDifference& d) const {
+        const auto move = [&](std::int64_t* axis, std::int64_t difference) {
+            const std::int64_t both = movement<far>(difference, gain, d.extra);
+            const std::int64_t of_b = part_of(both, part);
+            std::int64_t* x = as_it_stands(axis);
+            x[a] = wrapping_add(x[a], wrapping_subtract(both, of_b));
+            x[b] = wrapping_subtract(x[b], of_b);
         };
         move(arrays_.x, d.x);
         move(arrays_.y, d.y);
         move(arrays_.z, d.z);
     }
 
-    struct LongGain {
-        std::int64_t high; // as a gain, rounded down
-        std::int64_t low;  // 31 bits more
-    };
-
-    LongGain long_gain(std::uint32_t share, std::int64_t f) const {
-        const std::int64_t product = static_cast<std::int64_t>(share) * f;
-        return {product >> parameters_.gain_shift,
-                (product >> (parameters_.gain_shift - 31)) & std::int64_t{INT32_MAX}};
-    }
-
     const std::uint32_t* rest_mantissas_;
-    const std::uint32_t* shares_a_;
-    const std::uint32_t* shares_b_;
+    const std::uint32_t* shares_;
+    const std::uint32_t* parts_b_;
     const std::uint32_t* relaxations_;
     DistanceParameters parameters_;
     std::int64_t difference_rounding_;

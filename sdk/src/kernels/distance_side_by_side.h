@@ -65,7 +65,7 @@ public:
         }
     }
 
-    void project() { Rolling<L, false, RunAccess<L>, Groups, Stage>(groups_, stages_).project(*this); }
+    void project() { Rolling<L, Ends::alike, RunAccess<L>, Groups, Stage>(groups_, stages_).project(*this); }
 
     // The next group that rolls. False: there is none.
     bool take_one(RunAccess<L>& next) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "asset/constraint_runs.h"
+#include "fixed/formats.h"
 
 namespace lks {
 
@@ -62,6 +63,9 @@ constexpr std::ptrdiff_t place_of(std::uint32_t particle) {
     return static_cast<std::ptrdiff_t>(particle);
 }
 
+// A part in both ends' movements where they move alike; Direction.
+inline constexpr std::uint32_t half_part = std::uint32_t{direction_one} / 2;
+
 // Objects in one task: with fewer than three a group would wait for itself.
 inline constexpr std::uint32_t least_side_by_side = 3;
 inline constexpr std::uint32_t most_side_by_side = 16;
@@ -79,8 +83,9 @@ struct DistanceTask {
     const Constraint* constraints;
     // By constraint; kernels read up to widest_group - 1 of each behind the last one.
     const std::uint32_t* rest_mantissas;
-    const std::uint32_t* shares_a;
-    const std::uint32_t* shares_b;
+    // Unit, scaled: of each end where both move alike, and then at most a half; elsewhere of both together.
+    const std::uint32_t* shares;
+    const std::uint32_t* parts_b;     // Direction, 0 .. 1: how much of both ends' movements is b's
     const std::uint32_t* relaxations; // null where needless
     DistanceArrays arrays;
     // Of objects side by side, which have all of the above in common, `arrays` are the first one's: how far

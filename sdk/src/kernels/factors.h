@@ -35,6 +35,9 @@ struct EvenFactors {
     LKS_FORCE_INLINE static Factors difference(const Factors& x, const Factors& y) {
         return {L::subtract(x.a, y.a), L::subtract(x.b, y.b)};
     }
+    LKS_FORCE_INLINE static Factors sum(const Factors& x, const Factors& y) {
+        return {L::add(x.a, y.a), L::add(x.b, y.b)};
+    }
     // Where there are bits, by 64-bit lanes.
     LKS_FORCE_INLINE static Factors masked(const Factors& v, const Group<L>& bits) {
         return {L::bit_and(v.a, bits.a), L::bit_and(v.b, bits.b)};
@@ -51,13 +54,20 @@ struct EvenFactors {
     LKS_FORCE_INLINE static Group<L> multiply_unsigned(const Factors& x, const Factors& y) {
         return {L::multiply_unsigned(x.a, y.a), L::multiply_unsigned(x.b, y.b)};
     }
-    // Of loaded ones: all bits of a 64-bit lane, or none.
-    LKS_FORCE_INLINE static Group<L> equal(const Factors& x, const Factors& y) {
-        return {L::equal(x.a, y.a), L::equal(x.b, y.b)};
+    // Of loaded ones: all bits, or none.
+    LKS_FORCE_INLINE static Factors equal(const Factors& x, R constant) {
+        return {L::equal(x.a, constant), L::equal(x.b, constant)};
     }
-    LKS_FORCE_INLINE static bool all_equal(const Factors& x, const Factors& y) {
-        const Group<L> alike = equal(x, y);
+    LKS_FORCE_INLINE static bool all_equal(const Factors& x, R constant) {
+        const Factors alike = equal(x, constant);
         return L::all(L::bit_and(alike.a, alike.b));
+    }
+    // v where these are all bits.
+    LKS_FORCE_INLINE static Factors where(const Factors& bits, const Factors& v) {
+        return {L::bit_and(v.a, bits.a), L::bit_and(v.b, bits.b)};
+    }
+    LKS_FORCE_INLINE static Group<L> wide_where(const Factors& bits, const Group<L>& v) {
+        return where(bits, v);
     }
 };
 
@@ -77,6 +87,7 @@ struct PackedFactors {
     LKS_FORCE_INLINE static Factors low(const Group<L>& v) { return L::pack_low_halves(v.a, v.b); }
     LKS_FORCE_INLINE static Factors less(Factors v, R amount) { return L::subtract_32(v, amount); }
     LKS_FORCE_INLINE static Factors difference(Factors x, Factors y) { return L::subtract_32(x, y); }
+    LKS_FORCE_INLINE static Factors sum(Factors x, Factors y) { return L::add_32(x, y); }
     LKS_FORCE_INLINE static Factors masked(Factors v, const Group<L>& bits) {
         return L::bit_and(v, low(bits));
     }
@@ -90,10 +101,13 @@ struct PackedFactors {
     LKS_FORCE_INLINE static Group<L> multiply_unsigned(Factors x, Factors y) {
         return {L::multiply_low_half_unsigned(x, y), L::multiply_high_half_unsigned(x, y)};
     }
-    LKS_FORCE_INLINE static Group<L> equal(Factors x, Factors y) {
-        return multiply_signed(L::equal_32(x, y), L::set_32(1));
+    LKS_FORCE_INLINE static Factors equal(Factors x, R constant) { return L::equal_32(x, constant); }
+    LKS_FORCE_INLINE static bool all_equal(Factors x, R constant) { return L::all(equal(x, constant)); }
+    LKS_FORCE_INLINE static Factors where(Factors bits, Factors v) { return L::bit_and(v, bits); }
+    LKS_FORCE_INLINE static Group<L> wide_where(Factors bits, const Group<L>& v) {
+        const Group<L> wide = multiply_signed(bits, L::set_32(1));
+        return {L::bit_and(v.a, wide.a), L::bit_and(v.b, wide.b)};
     }
-    LKS_FORCE_INLINE static bool all_equal(Factors x, Factors y) { return L::all(L::equal_32(x, y)); }
 };
 
 template <typename L>

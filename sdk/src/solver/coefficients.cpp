@@ -43,10 +43,16 @@ void include(ConstraintRange& range, std::uint32_t constraint) {
     }
 }
 
-// The largest s that any pinning can give to this constraint: the other end pinned.
-Scaled largest_share(const Scaled& w_a, const Scaled& w_b, const Scaled& softness) {
-    const Scaled& w = w_a < w_b ? w_b : w_a;
-    return w / (w + softness);
+// s_a + s_b. What is pinned makes it less.
+Scaled sum_of_shares(const Scaled& w_a, const Scaled& w_b, const Scaled& softness) {
+    return (w_a + w_b) / (w_a + w_b + softness);
+}
+// ρ: a half where nothing moves.
+std::uint32_t part_of_b(const Scaled& w_a, const Scaled& w_b) {
+    if (w_a == w_b) {
+        return half_part;
+    }
+    return static_cast<std::uint32_t>((w_b / (w_a + w_b)).to_fixed(direction_fraction_bits));
 }
 
 DistanceParameters distance_parameters(const Batch& batch, std::int32_t share_exponent,
@@ -73,7 +79,7 @@ bool PinnedParticles::contains(std::uint32_t particle) const {
 bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
     const std::size_t count = asset.constraints.size();
     const std::size_t padded = count + widest_group - 1;
-    if (!shares_a.resize(padded) || !shares_b.resize(padded) || !batches.resize(asset.batches.size())) {
+    if (!shares.resize(padded) || !parts_b.resize(padded) || !batches.resize(asset.batches.size())) {
         return false;
     }
     bool any_soft = false;
@@ -93,6 +99,7 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
     if (rate.iterations > 1 && any_soft && !relaxations.resize(padded)) {
         return false;
     }
+    std::fill(parts_b.begin(), parts_b.end(), half_part);
     const PinnedParticles none;
     for (std::uint32_t b = 0; b < asset.batches.size(); ++b) {
         const Batch& batch = asset.batches[b];
@@ -100,11 +107,11 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
         for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
             const Constraint& constraint = asset.constraints[i];
             const Scaled share =
-                largest_share(asset.inverse_masses[constraint.a], asset.inverse_masses[constraint.b],
+                sum_of_shares(asset.inverse_masses[constraint.a], asset.inverse_masses[constraint.b],
                               terms[batch.family].softness);
             largest = largest < share ? share : largest;
         }
-        // s ≤ 2^-exponent; beyond 40 a correction would be under one coordinate unit for any length.
+        // s_a + s_b ≤ 2^-exponent; beyond 40 a correction would be under one coordinate unit for any length.
         const std::int32_t exponent = largest.is_zero() ? 0 : -largest.log2_floor() - 1;
         batches[b].share_exponent = std::clamp(exponent, 0, 40);
         batches[b].parameters = distance_parameters(batch, batches[b].share_exponent, families[batch.family]);
@@ -117,8 +124,8 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
 }
 
 bool Coefficients::copy(const Coefficients& other) {
-    if (!shares_a.copy(other.shares_a) || !shares_b.copy(other.shares_b) ||
-        !relaxations.copy(other.relaxations) || !batches.copy(other.batches) || !chain.copy(other.chain)) {
+    if (!shares.copy(other.shares) || !parts_b.copy(other.parts_b) || !relaxations.copy(other.relaxations) ||
+        !batches.copy(other.batches) || !chain.copy(other.chain)) {
         return false;
     }
     std::copy(std::begin(other.families), std::end(other.families), std::begin(families));
@@ -152,15 +159,10 @@ void Coefficients::update_constraint(const lks_asset& asset, const StepRate& rat
     const Scaled effective = w_a + w_b + terms.softness;
     BatchCoefficients& of_batch = batches[batch];
     const std::int32_t exponent = of_batch.share_exponent;
-    const bool was_unequal = shares_a[constraint] != shares_b[constraint];
-    if (w_a.is_zero() && w_b.is_zero()) {
-        shares_a[constraint] = 0;
-        shares_b[constraint] = 0;
-    } else {
-        shares_a[constraint] = to_share(w_a / effective, exponent);
-        shares_b[constraint] = to_share(w_b / effective, exponent);
-    }
-    const bool is_unequal = shares_a[constraint] != shares_b[constraint];
+    const bool was_unequal = parts_b[constraint] != half_part;
+    parts_b[constraint] = part_of_b(w_a, w_b);
+    const bool is_unequal = parts_b[constraint] != half_part;
+    shares[constraint] = to_share(sum_of_shares(w_a, w_b, terms.softness), exponent - (is_unequal ? 0 : 1));
     if (is_unequal) {
         // Never taken back: that would need a look at the whole batch.
         include(of_batch.unequal_shares, constraint);

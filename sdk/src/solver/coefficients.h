@@ -27,10 +27,10 @@ struct FamilyCoefficients {
 
 struct BatchCoefficients {
     DistanceParameters parameters{};
-    std::int32_t share_exponent = 0; // s = share · 2^-(31 + share_exponent)
-    // Outside of these s_a = s_b, so that nobody need look. Within it says nothing.
+    std::int32_t share_exponent = 0; // share · 2^-(31 + share_exponent)
+    // Outside of these both ends move alike, so that nobody need look. Within it says nothing.
     ConstraintRange unequal_shares{};
-    std::uint32_t unequal_count = 0; // constraints for which s_a ≠ s_b
+    std::uint32_t unequal_count = 0; // constraints whose ends don't
 };
 
 // Which particles have infinite mass although the asset gives them one: ascending indices.
@@ -44,7 +44,7 @@ struct PinnedParticles {
 class Coefficients {
 public:
     explicit Coefficients(const lks_allocator& allocator)
-        : shares_a(allocator), shares_b(allocator), relaxations(allocator), batches(allocator),
+        : shares(allocator), parts_b(allocator), relaxations(allocator), batches(allocator),
           chain(allocator) {}
 
     // All constraints, nothing pinned. False: no memory.
@@ -56,9 +56,10 @@ public:
                          std::uint32_t particle);
 
     FamilyCoefficients families[family_count];
-    FamilyCoefficients tethers;    // as the family has them that is damped most
-    Array<std::uint32_t> shares_a; // s_a mantissas, by constraint; padded, as kernels read on
-    Array<std::uint32_t> shares_b;
+    FamilyCoefficients tethers; // as the family has them that is damped most
+    // By constraint; padded, as kernels read on.
+    Array<std::uint32_t> shares;  // mantissas: s_a where both ends move alike, else s_a + s_b
+    Array<std::uint32_t> parts_b; // s_b / (s_a + s_b), Direction
     Array<std::uint32_t>
         relaxations; // r, Unit, by constraint, padded; empty where one iteration makes it needless
     Array<BatchCoefficients> batches;

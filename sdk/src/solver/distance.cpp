@@ -19,7 +19,7 @@ BatchPart whole_batch(const lks_asset& asset, const Coefficients& coefficients, 
             batch.run_count,
             batch.first_single,
             coefficients.batches[index].unequal_shares,
-            coefficients.batches[index].unequal_count <= batch.count / 8,
+            coefficients.batches[index].unequal_count <= batch.count / 32,
             true};
 }
 
@@ -36,8 +36,8 @@ DistanceTask task_of_batch(const lks_asset& asset, const Coefficients& coefficie
             coefficients.batches[index].parameters,
             asset.constraints.data(),
             asset.rest_mantissas.data(),
-            coefficients.shares_a.data(),
-            coefficients.shares_b.data(),
+            coefficients.shares.data(),
+            coefficients.parts_b.data(),
             coefficients.relaxations.empty() ? nullptr : coefficients.relaxations.data(),
             arrays,
             nullptr,

@@ -7,14 +7,14 @@
 //     d = (x_a − x_b) >> (s + e)           31 bits, rounded; s is the batch's, e > 0 for far edges only
 //     u = d·d,  y = 1/√u                   fixed/projection_reciprocal_sqrt.h
 //     f = c·(min(L·y, 2) − 1) − r·Λ·y − γ'·d·(d − d_start)·y²       within [−1, 1]
-//     x_a += d·(s_a·f),  x_b −= d·(s_b·f)  where s_a = s_b: the same product at both ends
-//     the same for each end where they differ, with s·f to 31 more bits than the gain has
+//     x_a += d·(s·f),  x_b −= d·(s·f)      where both ends have the same share s
+//     q = d·((s_a + s_b)·f),  q_b = q·ρ,  x_a += q − q_b,  x_b −= q_b       ρ = s_b/(s_a + s_b), elsewhere
 // clang-format on
 //
-// So momentum is kept to the bit between equal masses, and to about 2^-31 of each correction otherwise. The
-// clamp is part of the method: one projection may double an edge or close it, no more. An edge of length zero
-// has no direction and is left as it is. kernels/distance_scalar.h is the specification to the bit. What one
-// constraint does depends on its own two particles only.
+// So momentum is kept to the bit between equal masses, and to about 2^-31 of each correction otherwise: what
+// q was rounded to is shared out whole. The clamp is part of the method: one projection may double an edge or
+// close it, no more. An edge of length zero has no direction and is left as it is. kernels/distance_scalar.h
+// is the specification to the bit. What one constraint does depends on its own two particles only.
 #pragma once
 
 #include <cstdint>
