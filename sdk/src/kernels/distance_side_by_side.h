@@ -59,13 +59,14 @@ template <typename L, typename Groups, typename Stage>
 class SideBySide {
 public:
     SideBySide(const DistanceTask& task, const BatchPart& part, const Groups& groups, const Stage& stages)
-        : part_(part), groups_(groups), stages_(stages), object_count_(task.object_count) {
+        : part_(part), groups_(groups), stages_(stages), by_parts_(are_many_unequal(part)),
+          object_count_(task.object_count) {
         for (std::uint32_t i = 0; i < most_side_by_side + lanes; ++i) {
             objects_[i] = task.objects[i < object_count_ ? i : 0];
         }
     }
 
-    void project() { Rolling<L, Ends::alike, RunAccess<L>, Groups, Stage>(groups_, stages_).project(*this); }
+    void project() { by_parts_ ? roll<Ends::by_parts>() : roll<Ends::alike>(); }
 
     // The next group that rolls. False: there is none.
     bool take_one(RunAccess<L>& next) {
@@ -94,6 +95,24 @@ public:
 private:
     static constexpr std::uint32_t lanes = 2 * L::half;
 
+    template <Ends ends>
+    LKS_NEVER_INLINE void roll() {
+        Rolling<L, ends, RunAccess<L>, Groups, Stage>(groups_, stages_).project(*this);
+    }
+
+    // Whether a quarter of the groups have ends with shares of their own: then all roll by parts.
+    static bool are_many_unequal(const BatchPart& part) {
+        const ConstraintRange range = part.range;
+        const std::uint32_t first = std::max(range.first, part.unequal_shares.first);
+        const std::uint32_t last = std::min(range.last, part.unequal_shares.last);
+        if (first >= last) {
+            return false;
+        }
+        const std::uint32_t unequal =
+            (last - range.first + lanes - 1) / lanes - (first - range.first) / lanes;
+        return 4 * unequal >= (range.last - range.first) / lanes;
+    }
+
     LKS_FORCE_INLINE RunAccess<L> of_object(std::uint32_t object) const {
         const std::uint32_t done = at_ + lanes > in_groups_ ? at_ + lanes - in_groups_ : 0;
         const std::uint32_t from = at_ - done;
@@ -120,7 +139,7 @@ private:
         at_ = first_apart_ == 0 ? last_apart_ : 0;
     }
 
-    // Groups of which ends may have shares of their own don't roll.
+    // Groups of which ends may have shares of their own don't roll, unless all roll by parts.
     void find_apart() {
         const ConstraintRange unequal = part_.unequal_shares;
         const auto in_run = [&](std::uint32_t constraint) {
@@ -130,7 +149,7 @@ private:
         const std::uint32_t last = in_run(unequal.last);
         first_apart_ = first / lanes * lanes;
         last_apart_ = (last + lanes - 1) / lanes * lanes;
-        if (first == last) {
+        if (by_parts_ || first == last) {
             first_apart_ = last_apart_ = in_groups_ + lanes;
         }
     }
@@ -168,6 +187,7 @@ private:
     const BatchPart& part_;
     const Groups& groups_;
     const Stage& stages_;
+    bool by_parts_;
     std::ptrdiff_t objects_[most_side_by_side + lanes];
     std::uint32_t object_count_;
     std::uint32_t next_ = 0; // run
