@@ -1,5 +1,6 @@
-// The golden scenes on one to eight threads, with helpers that begin after naps of random length: what a tick
-// is made of goes to whoever comes first, and the states are the golden ones all the same.
+// The golden scenes on one to eight threads, with helpers that begin after naps of random length and kernels
+// that sleep now and then: what a tick is made of goes to whoever comes first, and the states are the golden
+// ones all the same.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -9,7 +10,9 @@
 
 #include "golden/recorder.h"
 #include "scenes/scene.h"
+#include "solver/world.h"
 #include "support/task_system.h"
+#include "unit/dawdling.h"
 
 using namespace support;
 
@@ -26,6 +29,7 @@ lks_golden::GoldenState run(const std::string& name, const lks_demo::SceneOption
     std::string error;
     const std::unique_ptr<lks_demo::Scene> scene = lks_demo::create_scene(name, options, error);
     REQUIRE_MESSAGE(scene != nullptr, error);
+    scene->world()->kernels = &lks::test::dawdling();
     lks_golden::GoldenState state;
     REQUIRE_MESSAGE(lks_golden::record_run(*scene, {}, state, error), error);
     return state;
@@ -33,7 +37,8 @@ lks_golden::GoldenState run(const std::string& name, const lks_demo::SceneOption
 
 } // namespace
 
-TEST_CASE("golden states come out of one to eight threads, however late they are") {
+TEST_CASE(
+    "golden states come out of one to eight threads, however late they are and whoever takes which block") {
     std::uint64_t tasks = 0;
     for (std::uint32_t workers = 1; workers <= 8; ++workers) {
         for (const std::string& name : lks_demo::scene_names()) {

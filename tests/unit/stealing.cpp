@@ -3,68 +3,22 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
-#include <chrono>
 #include <thread>
 #include <vector>
 
 #include "fixed_samples.h"
-#include "kernels/kernels.h"
 #include "solver/world.h"
 #include "support/builders.h"
 #include "support/scene.h"
 #include "threads/team.h"
+#include "unit/dawdling.h"
 
 using namespace support;
+using lks::test::dawdle;
+using lks::test::dawdling;
+using lks::test::prompt;
 
 namespace {
-
-// Sleeps, gives way or does nothing, each time anew.
-void dawdle() {
-    static std::atomic<std::uint64_t> seed{0};
-    lks::test::Random random(seed.fetch_add(1, std::memory_order_relaxed));
-    const std::uint64_t mood = random.below(128);
-    if (mood == 0) {
-        std::this_thread::sleep_for(std::chrono::microseconds(random.below(300)));
-    } else if (mood < 32) {
-        std::this_thread::yield();
-    }
-}
-
-const lks::Kernels& prompt() {
-    static const lks::Kernels& kernels = *lks::find_kernels(LKS_SIMD_AUTO);
-    return kernels;
-}
-
-// The kernels of this machine, none of which starts or ends on time.
-const lks::Kernels& dawdling() {
-    static const lks::Kernels kernels = [] {
-        lks::Kernels late = prompt();
-        late.constraints_a_block = 1024; // whatever this machine makes of it: there are blocks to steal
-        late.project_distances = [](const lks::DistanceTask& task) {
-            dawdle();
-            prompt().project_distances(task);
-            dawdle();
-        };
-        late.predict = [](const lks::PredictionTask& task) {
-            dawdle();
-            return prompt().predict(task);
-        };
-        late.range = [](const std::int64_t* values, std::size_t count) {
-            dawdle();
-            return prompt().range(values, count);
-        };
-        late.near_box = [](const lks::BoxTask& task, std::uint32_t first, std::uint32_t count) {
-            dawdle();
-            return prompt().near_box(task, first, count);
-        };
-        late.beyond_tether = [](const lks::TetherTask& task, std::uint32_t first, std::uint32_t count) {
-            dawdle();
-            return prompt().beyond_tether(task, first, count);
-        };
-        return late;
-    }();
-    return kernels;
-}
 
 struct Stretched {
     Asset sheet;
