@@ -11,7 +11,7 @@ Installs what is missing, builds into build/ and runs all tests: the SDK's own, 
 the states again from clang and from g++ without SIMD or floating-point registers, programs outside the tree
 that link the installed library, and the checks of the sources. Some twelve minutes on two cores.
 
-  --portability  also g++ and clang at -O0 and -O3, with -ffast-math and without SIMD, address,
+  --portability  also g++ and clang at every -O, with -ffast-math and without SIMD, address,
                  undefined-behaviour and thread sanitizers, and the golden states on aarch64, 32-bit arm,
                  s390x, Windows and WebAssembly, under qemu-user, wine and node: some fifty minutes
   --long         also the exhaustive sweeps
