@@ -370,8 +370,9 @@ TEST_CASE("kernels: parts of every length about which groups begin to roll are p
 }
 
 TEST_CASE("kernels: in rows they project random and extreme edges as plain integers do in arrays") {
-    // From one constraint to more than begin to roll, whole batches and parts.
-    const auto problems = static_cast<int>(test::sample_count() / 20000);
+    // From one constraint to more than begin to roll, whole batches and parts; five times as many in long
+    // runs.
+    const auto problems = static_cast<int>(test::sample_count() / (test::long_run() ? 4000 : 20000));
     for (const Kernels* kernels : test::wide_kernels()) {
         if (kernels->rows.take == nullptr) {
             continue;
