@@ -18,10 +18,10 @@ namespace {
 
 // How the ends of groups move that roll.
 enum class Ends : std::uint8_t {
-    alike,   // those that don't are rare, and go apart: that there may be some costs all others 2 % of their
-             // time
-    mixed,   // some do not
-    by_parts // each by its part, which may be the same
+    // Those that don't are rare, and go apart: that there may be some costs all others 2 % of their time.
+    alike,
+    mixed,    // some do not
+    by_parts, // each by its part, which may be the same
 };
 
 template <typename L, Ends ends, typename Access, typename Groups, typename Stage>
