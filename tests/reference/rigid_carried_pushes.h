@@ -1,0 +1,141 @@
+// How much of its carried pushes a figure is to begin a substep with, in the rigid reference solver: what
+// leaves the least kinetic energy (sdk/src/rigid/carried_pushes.h).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "reference/rigid_parts.h"
+
+namespace reference {
+
+template <typename Scalar>
+class CarriedPushes {
+public:
+    using Vec = Vector3<Scalar>;
+    using Body = MovingBody<Scalar>;
+    using Joint = HeldJoint<Scalar>;
+    using Contact = BodyContact<Scalar>;
+    using Move = BodyMove<Scalar>;
+
+    // least_motion: metres of a substep, below which nothing is gained.
+    CarriedPushes(RigidParts<Scalar>& parts, Scalar least_motion)
+        : parts_(parts), least_motion_(least_motion) {}
+
+    // What a held tree begins its next solve with.
+    static void carry_torque(Body& a, Body& b, const Vec& push) {
+        a.carried_torque = a.carried_torque - push;
+        b.carried_torque = b.carried_torque + push;
+    }
+
+    // Figure by figure. Where one has been changed those that touch it think again.
+    bool scale() {
+        std::vector<Scalar> shares(parts_.bodies.size());
+        for (std::size_t figure = 0; figure < parts_.bodies.size(); ++figure) {
+            shares[figure] = share_to_add(figure);
+        }
+        std::vector<bool> changed(parts_.bodies.size());
+        bool any = false;
+        for (std::size_t figure = 0; figure < parts_.bodies.size(); ++figure) {
+            if (knows_changed(figure, changed)) {
+                shares[figure] = share_to_add(figure);
+            }
+            if (shares[figure] == 0) {
+                continue;
+            }
+            any = true;
+            changed[figure] = true;
+            parts_.for_each_joint([&](Joint& joint, Body& a, Body& b) {
+                if (parts_.figure_of(joint) != figure) {
+                    return;
+                }
+                if (joint.in_held_tree) {
+                    carry_torque(a, b, joint.add_to_carried_turn(a, b, shares[figure]));
+                } else {
+                    joint.carry_more(a, b, shares[figure]);
+                }
+            });
+            for (const bool shared : {false, true}) {
+                parts_.for_each_contact([&](Contact& contact, Body& a, Body& b) {
+                    if (parts_.belongs_to(contact, figure) && parts_.is_shared(contact) == shared) {
+                        contact.carry_more(a, b, shares[figure]);
+                        changed[parts_.figures[contact.a]] = changed[parts_.figures[contact.a]] || shared;
+                        changed[parts_.figures[contact.b]] = changed[parts_.figures[contact.b]] || shared;
+                    }
+                });
+            }
+        }
+        return any;
+    }
+
+private:
+    bool knows_changed(std::size_t figure, const std::vector<bool>& changed) const {
+        return changed[figure] ||
+               std::any_of(parts_.contacts.begin(), parts_.contacts.end(), [&](const Contact& c) {
+                   return parts_.is_shared(c) && parts_.belongs_to(c, figure) &&
+                          (changed[parts_.figures[c.a]] || changed[parts_.figures[c.b]]);
+               });
+    }
+
+    // Products of motions in six dimensions with the mass matrix.
+    struct Energies {
+        Scalar g = 0, q = 0;
+
+        // `part`: of its mass.
+        void add(const Body& body, Scalar part, const Vec& pushed, const Vec& turned) {
+            const Scalar mass = body.mass * part;
+            const Vec turned_mass = products(body.inertia, turned) * part;
+            g += mass * pushed.dot(body.position - body.start_position) +
+                 turned_mass.dot(turn_since(body, body.start_orientation));
+            q += mass * pushed.dot(pushed) + turned_mass.dot(turned);
+        }
+    };
+
+    // In the body's axes.
+    static Vec turn_since(const Body& body, const Quaternion<Scalar>& then) {
+        const Quaternion<Scalar> d = then.conjugate() * body.orientation;
+        return d.vector() * Scalar(d.w < 0 ? -2 : 2);
+    }
+
+    // What of a figure's carried pushes is missing to the least energy: −G/Q; none where next to nothing is
+    // gained.
+    Scalar share_to_add(std::size_t figure) const {
+        Energies energies;
+        Scalar mass = 0;
+        Scalar heaviest = 0;
+        for (std::size_t i = 0; i < parts_.bodies.size(); ++i) {
+            const Body& body = parts_.bodies[i];
+            if (body.moves && parts_.figures[i] == figure) {
+                energies.add(body, 1, body.position - body.uncarried_position,
+                             turn_since(body, body.uncarried_orientation));
+                mass += body.mass;
+                heaviest = std::max(heaviest, body.mass);
+            }
+        }
+        // What the contacts with other figures do to these. None counts as heavier than the figure's own.
+        for (const Contact& contact : parts_.contacts) {
+            if (parts_.is_shared(contact) && parts_.belongs_to(contact, figure)) {
+                const bool to_a = parts_.figures[contact.a] != figure;
+                const Body& neighbour = parts_.bodies[to_a ? contact.a : contact.b];
+                Move move;
+                contact.add_pushes(to_a, move);
+                energies.add(neighbour, std::min(heaviest / neighbour.mass, Scalar(1)), move.shift,
+                             neighbour.rotation.back(move.angle));
+            }
+        }
+        if (!(energies.q > 0)) {
+            return 0;
+        }
+        const Scalar share = std::clamp(-energies.g / energies.q, Scalar(-1), Scalar(1));
+        const bool worth = std::abs(share) >= Scalar(0.125) &&
+                           std::abs(energies.g * share) >= least_motion_ * least_motion_ * mass;
+        return worth ? share : 0;
+    }
+
+    RigidParts<Scalar>& parts_;
+    Scalar least_motion_;
+};
+
+} // namespace reference

@@ -1,0 +1,64 @@
+// What the rigid reference solver works on, and which of it belongs together: bodies that joints hold
+// together are a figure, with the contacts of its bodies.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include "reference/rigid_contact.h"
+#include "reference/rigid_joint.h"
+
+namespace reference {
+
+template <typename Scalar>
+struct RigidParts {
+    using Body = MovingBody<Scalar>;
+    using Joint = HeldJoint<Scalar>;
+    using Contact = BodyContact<Scalar>;
+
+    std::vector<Body> bodies; // colliders behind them
+    std::vector<Joint> joints;
+    std::vector<Contact> contacts;
+    std::vector<std::size_t> figures; // of each body: the number of one of its figure
+
+    void find_figures() {
+        figures.resize(bodies.size());
+        std::iota(figures.begin(), figures.end(), std::size_t{0});
+        for (const Joint& joint : joints) {
+            if (bodies[joint.a].moves && bodies[joint.b].moves) {
+                const std::size_t from = figures[joint.b];
+                std::replace(figures.begin(), figures.end(), from, figures[joint.a]);
+            }
+        }
+    }
+
+    // Of two figures.
+    bool is_shared(const Contact& contact) const {
+        return bodies[contact.a].moves && bodies[contact.b].moves && figures[contact.a] != figures[contact.b];
+    }
+    std::size_t figure_of(const Joint& joint) const {
+        return figures[bodies[joint.a].moves ? joint.a : joint.b];
+    }
+    bool belongs_to(const Contact& contact, std::size_t figure) const {
+        return (bodies[contact.a].moves && figures[contact.a] == figure) ||
+               (bodies[contact.b].moves && figures[contact.b] == figure);
+    }
+
+    // use(joint, body a, body b), and the same of contacts.
+    template <typename Use>
+    void for_each_joint(const Use& use) {
+        for (Joint& joint : joints) {
+            use(joint, bodies[joint.a], bodies[joint.b]);
+        }
+    }
+    template <typename Use>
+    void for_each_contact(const Use& use) {
+        for (Contact& contact : contacts) {
+            use(contact, bodies[contact.a], bodies[contact.b]);
+        }
+    }
+};
+
+} // namespace reference
