@@ -75,6 +75,13 @@ struct MovingBody {
     }
 };
 
+// b against a, by a turning push.
+template <typename Scalar>
+void turn_apart(MovingBody<Scalar>& a, MovingBody<Scalar>& b, const Vector3<Scalar>& push) {
+    a.turn(a.world_inverse * push * Scalar(-1));
+    b.turn(b.world_inverse * push);
+}
+
 // What one or several pushes do to a body, added up and then applied together.
 template <typename Scalar>
 struct BodyMove {

@@ -22,12 +22,13 @@ public:
     HeldTrees(RigidParts<Scalar>& parts, JointTrees<Scalar>& points)
         : bodies_(parts.bodies), joints_(parts.joints), points_(points) {}
 
-    // Something is turned by more than an eighth of a degree, in this substep or at all.
-    bool is_strained(const Tree& tree, bool in_substep) const {
-        return std::any_of(tree.joints.begin(), tree.joints.end(), [&](std::size_t i) {
-            const Joint& joint = joints_[i];
-            return joint.strain(bodies_[joint.a], bodies_[joint.b], in_substep) > far_turned;
-        });
+    // A joint of a figure that is held: something is turned by more than an eighth of a degree, in this
+    // substep or at all. Of those that no held tree has only limits count.
+    bool is_strained(const Joint& joint, bool in_substep) const {
+        const Body& a = bodies_[joint.a];
+        const Body& b = bodies_[joint.b];
+        return (joint.in_held_tree ? joint.strain(a, b, in_substep) : joint.limits.exceeded(a, b)) >
+               far_turned;
     }
 
     // Points and turns at once, in this substep or at all.
@@ -75,7 +76,7 @@ public:
     // What is off at all, without giving speed. False: rows that go in turn will do.
     bool undo_errors(const Tree& tree) {
         int round = 0;
-        for (; round < 3 && is_strained(tree, false); ++round) {
+        for (; round < 3 && is_strained(tree); ++round) {
             solve(tree, false);
         }
         if (round > 0) {
@@ -86,6 +87,11 @@ public:
     }
 
 private:
+    bool is_strained(const Tree& tree) const {
+        return std::any_of(tree.joints.begin(), tree.joints.end(),
+                           [this](std::size_t i) { return is_strained(joints_[i], false); });
+    }
+
     void stiffen_further(const Tree& tree) {
         points_.for_each_body(tree, [](Body& body) { body.found_load = 0; });
         for (const std::size_t i : tree.joints) {

@@ -1,11 +1,14 @@
 // A joint of the rigid reference solver: where its points are, what it does not let turn, and its limits. The
-// points are brought together by the solver, all joints at once.
+// points of trees are brought together by the solver, all joints at once; those of soft joints, and of those
+// that close loops, by a block each. Soft ones begin each substep from nothing, as XPBD has them.
 #pragma once
 
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "reference/rigid_joint_drive.h"
+#include "reference/rigid_joint_points.h"
 #include "reference/rigid_limits.h"
 #include "reference/symmetric_system.h"
 
@@ -18,27 +21,35 @@ public:
     using Quat = Quaternion<Scalar>;
     using Body = MovingBody<Scalar>;
 
-    explicit HeldJoint(const RigidJoint& from)
-        : a(from.a), b(from.b), limits(from), kind_(from.kind), point_a_(from.point_a),
+    // rate: substeps a second.
+    HeldJoint(const RigidJoint& from, Scalar rate)
+        : a(from.a), b(from.b), limits(from, rate), kind_(from.kind), point_a_(from.point_a),
           point_b_(from.point_b), frame_a_(quaternion_of<Scalar>(from.frame_a)),
-          frame_b_(quaternion_of<Scalar>(from.frame_b)) {}
+          frame_b_(quaternion_of<Scalar>(from.frame_b)),
+          points_softness_(from.compliance, from.damping, rate),
+          turn_softness_(from.angular_compliance, 0, rate), points_(points_softness_), drive_(from, rate) {}
 
     std::size_t a, b;
+    bool in_tree = false; // its points are solved there
     bool in_held_tree = false;
     JointLimits<Scalar> limits;
     // Of the substep.
-    Vec start;            // how far the points were apart at its beginning
+    Vec start;            // what the points are to keep apart
     Vec lever_a, lever_b; // at the predicted pose
     Vec push;             // kg·m, of the points
     Scalar tension = 0;   // the same of the substep before
 
     void begin(const Body& body_a, const Body& body_b) {
         tension = size_of(push);
-        push = {};
-        start = offset(body_a, body_b);
-        turn_start_ = turned_apart(body_a, body_b);
+        push = in_tree ? Vec{} : push;
+        begin_ = offset(body_a, body_b);
+        start = is_soft() ? Vec{} : begin_;
+        turn_start_ = keeps_turn() ? turned_apart(body_a, body_b) : Vec{};
         limits.begin(body_a, body_b);
     }
+
+    // Trees are of rigid ones.
+    bool is_soft() const { return points_softness_.is_soft() || turn_softness_.is_soft(); }
 
     // How far b's point is from a's.
     Vec offset(const Body& body_a, const Body& body_b) const {
@@ -58,20 +69,30 @@ public:
     }
 
     // After the prediction.
-    void prepare_turn(const Body& body_a, const Body& body_b) {
+    void prepare(const Body& body_a, const Body& body_b) {
+        limits.prepare();
+        drive_.prepare();
+        if (!in_tree) {
+            push = is_soft() ? Vec{} : push;
+            points_.factor(body_a, lever_a, body_b, lever_b);
+        }
         if (holds_turn()) {
             factor_turning(body_a, body_b);
+            turn_ = keeps_turn() ? turn_ : Vec{};
             if (kind_ == LKS_JOINT_HINGE) {
                 const Vec u = hinge_axis(body_a);
                 turn_ = turn_ - u * u.dot(turn_);
             }
         }
     }
-    void turn_again(Body& body_a, Body& body_b) {
+    void push_again(Body& body_a, Body& body_b) {
         if (holds_turn()) {
             turn_apart(body_a, body_b, turn_);
         }
         limits.push_again(body_a, body_b);
+        if (!in_tree) {
+            push_apart(body_a, body_b, push);
+        }
     }
     // What turns b against a; and what is added to it by a share.
     Vec carried_turn(const Body& body_a, const Body& body_b) const {
@@ -90,13 +111,22 @@ public:
             turn_apart(body_a, body_b, more);
         }
         limits.carry_more(body_a, body_b, share);
+        if (!in_tree) {
+            const Vec more = push * share;
+            push = push + more;
+            push_apart(body_a, body_b, more);
+        }
     }
 
-    void project_turn(Body& body_a, Body& body_b) {
+    void project(Body& body_a, Body& body_b) {
+        drive_.project(body_a, body_b);
         if (holds_turn()) {
-            turn_ = turn_ + turn_back(body_a, body_b, turned_apart(body_a, body_b) - turn_start_);
+            turn_ = turn_ + turn_back(body_a, body_b, left_to_turn(body_a, body_b));
         }
         limits.project(body_a, body_b);
+        if (!in_tree) {
+            project_points(body_a, body_b);
+        }
     }
 
     // By how much it is strained, what must not turn or limits, in this substep; or at all.
@@ -131,10 +161,16 @@ public:
 
     // Without giving speed. True: a limit was exceeded by more than half a degree.
     bool undo_turn(Body& body_a, Body& body_b) const {
-        if (holds_turn()) {
+        if (holds_turn() && keeps_turn()) {
             turn_back(body_a, body_b, turned_apart(body_a, body_b));
         }
         return limits.undo(body_a, body_b);
+    }
+    // The same of its points.
+    void undo_points(Body& body_a, Body& body_b) const {
+        if (!is_soft()) {
+            push_apart(body_a, body_b, points_.pushed_by(offset(body_a, body_b)) * Scalar(-1));
+        }
     }
 
 private:
@@ -150,11 +186,16 @@ private:
     }
 
     bool holds_turn() const { return kind_ != LKS_JOINT_BALL; }
+    bool keeps_turn() const { return !turn_softness_.is_soft(); }
 
-    // b against a, by a turning push.
-    static void turn_apart(Body& body_a, Body& body_b, const Vec& push) {
-        body_a.turn(body_a.world_inverse * push * Scalar(-1));
-        body_b.turn(body_b.world_inverse * push);
+    void push_apart(Body& body_a, Body& body_b, const Vec& more) const {
+        JointPoints<Scalar>::push_apart(body_a, lever_a, body_b, lever_b, more);
+    }
+    void project_points(Body& body_a, Body& body_b) {
+        const Vec apart = offset(body_a, body_b);
+        const Vec before = push;
+        push = points_.next_push(apart - start, apart - begin_, before);
+        push_apart(body_a, body_b, push - before);
     }
 
     // What hinges and fixed joints don't let turn: the sine between the axes, or twice the sine of half the
@@ -186,6 +227,27 @@ private:
         return {};
     }
 
+    // Soft ones give way by the angle.
+    Vec soft_turned_apart(const Body& body_a, const Body& body_b) const {
+        if (kind_ == LKS_JOINT_HINGE) {
+            const Vec u = hinge_axis(body_a);
+            const Vec v = body_b.rotation * frame_b_.matrix().column(1);
+            const Vec across = cross(u, v);
+            const Scalar sine = across.length();
+            return sine == 0 ? Vec{} : across * (std::atan2(sine, u.dot(v)) / sine);
+        }
+        Quat q = (body_a.orientation * frame_a_).conjugate() * (body_b.orientation * frame_b_);
+        const Scalar sine = q.vector().length();
+        const Scalar angle = 2 * std::atan2(sine, std::abs(q.w));
+        return sine == 0
+                   ? Vec{}
+                   : body_a.rotation * (frame_a_.matrix() * q.vector()) * ((q.w < 0 ? -angle : angle) / sine);
+    }
+    Vec left_to_turn(const Body& body_a, const Body& body_b) const {
+        return keeps_turn() ? turned_apart(body_a, body_b) - turn_start_
+                            : soft_turned_apart(body_a, body_b) + turn_ * turn_softness_.added;
+    }
+
     Vec hinge_axis(const Body& body_a) const { return body_a.rotation * frame_a_.matrix().column(1); }
 
     // What turning pushes do, in all directions. Hinges have a number of its own along their axis.
@@ -195,7 +257,7 @@ private:
         const Vec u = hinge_axis(body_a);
         const auto across = [&](const Vec& v) { return hinge ? v - u * u.dot(v) : v; };
         const auto turned = [&](const Vec& push) {
-            return body_a.world_inverse * push + body_b.world_inverse * push;
+            return body_a.world_inverse * push + body_b.world_inverse * push + push * turn_softness_.added;
         };
         const Scalar along = hinge ? greatest(turned({1, 1, 1})) : Scalar(0);
         std::vector<Scalar> matrix(9);
@@ -219,8 +281,12 @@ private:
     std::uint32_t kind_;
     Vec point_a_, point_b_;
     Quat frame_a_, frame_b_;
+    Softness<Scalar> points_softness_, turn_softness_;
+    JointPoints<Scalar> points_;
+    JointDrive<Scalar> drive_;
     Vec turn_; // b against a: carried from substep to substep
     // Of the substep.
+    Vec begin_; // how far the points were apart at its beginning
     Vec turn_start_;
     SymmetricSystem<Scalar> turning_;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -12,7 +13,7 @@
 
 namespace reference {
 
-// The joints of a figure.
+// The joints of a figure, or of a part of it.
 template <typename Scalar>
 struct JointTree {
     std::vector<std::size_t> joints;
@@ -31,14 +32,24 @@ public:
 
     explicit JointTrees(RigidParts<Scalar>& parts) : bodies_(parts.bodies), joints_(parts.joints) {}
 
-    // Of each figure of what it was made with.
-    void find(const RigidParts<Scalar>& parts) {
-        for (std::size_t figure = 0; figure < bodies_.size(); ++figure) {
-            if (parts.figures[figure] != figure) {
+    // Soft joints are left out, and so are those that close loops.
+    void find() {
+        std::vector<std::size_t> roots(bodies_.size());
+        std::iota(roots.begin(), roots.end(), std::size_t{0});
+        for (Joint& joint : joints_) {
+            const bool joins = bodies_[joint.a].moves && bodies_[joint.b].moves;
+            joint.in_tree = !joint.is_soft() && !(joins && roots[joint.a] == roots[joint.b]);
+            if (joint.in_tree && joins) {
+                const auto [root, other] = std::minmax(roots[joint.a], roots[joint.b]);
+                std::replace(roots.begin(), roots.end(), std::size_t{other}, std::size_t{root});
+            }
+        }
+        for (std::size_t root = 0; root < bodies_.size(); ++root) {
+            if (roots[root] != root) {
                 continue;
             }
             Tree tree;
-            tree.joints = joints_from(figure);
+            tree.joints = joints_from(root);
             for (const std::size_t i : tree.joints) {
                 tree.held = tree.held || bodies_[joints_[i].a].moves != bodies_[joints_[i].b].moves;
             }
@@ -63,6 +74,9 @@ public:
             body.load = body.found_load = 0;
         }
         for (const Joint& joint : joints_) {
+            if (!joint.in_tree) {
+                continue;
+            }
             joint.add_loads(bodies_[joint.a], bodies_[joint.b]);
         }
         for (Tree& tree : trees_) {
@@ -173,8 +187,8 @@ private:
         for (std::size_t next = 0; next < bodies.size(); ++next) {
             for (std::size_t i = 0; i < joints_.size(); ++i) {
                 const Joint& joint = joints_[i];
-                const bool holds =
-                    bodies_[bodies[next]].moves && (joint.a == bodies[next] || joint.b == bodies[next]);
+                const bool holds = joint.in_tree && bodies_[bodies[next]].moves &&
+                                   (joint.a == bodies[next] || joint.b == bodies[next]);
                 if (holds && std::find(found.begin(), found.end(), i) == found.end()) {
                     found.push_back(i);
                     bodies.push_back(joint.a == bodies[next] ? joint.b : joint.a);

@@ -6,6 +6,7 @@
 
 #include "reference/rigid_body.h"
 #include "reference/rigid_held.h"
+#include "reference/rigid_softness.h"
 
 namespace reference {
 
@@ -17,7 +18,8 @@ public:
     using Quat = Quaternion<Scalar>;
     using Body = MovingBody<Scalar>;
 
-    explicit JointLimits(const RigidJoint& joint)
+    // rate: substeps a second.
+    JointLimits(const RigidJoint& joint, Scalar rate)
         : frame_a_(quaternion_of<Scalar>(joint.frame_a)), frame_b_(quaternion_of<Scalar>(joint.frame_b)),
           swings_(joint.kind == LKS_JOINT_BALL &&
                   std::min(joint.swing_limit, joint.swing_limit_z) < half_circle),
@@ -25,8 +27,8 @@ public:
                   (joint.twist_min > -half_circle || joint.twist_max < half_circle)),
           limit_x_(static_cast<Scalar>(joint.swing_limit)),
           limit_z_(static_cast<Scalar>(joint.swing_limit_z)),
-          twist_min_(static_cast<Scalar>(joint.twist_min)), twist_max_(static_cast<Scalar>(joint.twist_max)) {
-    }
+          twist_min_(static_cast<Scalar>(joint.twist_min)), twist_max_(static_cast<Scalar>(joint.twist_max)),
+          softness_(joint.limit_compliance, joint.limit_damping, rate) {}
 
     // Before the prediction: how far they let turn.
     void begin(const Body& a, const Body& b) {
@@ -41,6 +43,12 @@ public:
         }
     }
 
+    // Soft ones begin each substep anew.
+    void prepare() {
+        if (softness_.is_soft()) {
+            swing_push_ = twist_push_ = 0;
+        }
+    }
     void push_again(Body& a, Body& b) const { push(a, b, swing_push_, twist_push_); }
     // What they push, b against a.
     Vec pushed(const Body& a, const Body& b) const {
@@ -69,9 +77,12 @@ public:
         }
     }
 
-    // In this substep.
+    // In this substep; soft ones never.
     Scalar exceeded(const Body& a, const Body& b) const {
         Scalar beyond = 0;
+        if (softness_.is_soft()) {
+            return beyond;
+        }
         Swing swing;
         if (swings_ && find_swing(a, b, swing)) {
             beyond = swing.angle - std::max(swing.limit, swing_start_);
@@ -86,6 +97,9 @@ public:
     // By how much they are exceeded at all.
     Scalar beyond(const Body& a, const Body& b) const {
         Scalar worst = 0;
+        if (softness_.is_soft()) {
+            return worst;
+        }
         Swing swing;
         if (swings_ && find_swing(a, b, swing)) {
             worst = swing.angle - swing.limit;
@@ -99,6 +113,9 @@ public:
 
     // In this substep, or at all; of a twist the nearer one.
     void add_rows(const Body& a, const Body& b, bool in_substep, std::vector<HeldRow<Scalar>>& rows) {
+        if (softness_.is_soft()) {
+            return;
+        }
         if (swings_) {
             const Swing swing = measure_swing(a, b);
             const Scalar limit = in_substep ? std::max(swing.limit, swing_start_) : swing.limit;
@@ -120,6 +137,9 @@ public:
     // Without giving speed. True: one was exceeded by more than half a degree.
     bool undo(Body& a, Body& b) const {
         constexpr Scalar more = Scalar(1.5); // the points of the joint hold much of it back
+        if (softness_.is_soft()) {
+            return false;
+        }
         Scalar beyond = 0;
         Swing swing;
         if (swings_ && find_swing(a, b, swing) && swing.angle > swing.limit) {
@@ -193,13 +213,19 @@ private:
         return sum * (1 / sum.length());
     }
 
+    // By how much it is beyond its limit, was when the substep began, and what has been pushed against that.
+    Scalar to_turn_back(Scalar beyond, Scalar start, Scalar push) const {
+        return softness_.is_soft() ? softness_.left(beyond, beyond - start, -push) : beyond - start;
+    }
+
     void hold_swing(Body& a, Body& b) {
         Swing swing;
         if (!find_swing(a, b, swing)) {
             return;
         }
-        const Scalar beyond = swing.angle - std::max(swing.limit, swing_start_);
-        const Scalar wanted = std::max(swing_push_ + push_for(a, b, swing.axis, beyond), Scalar(0));
+        const Scalar start = std::max(swing_start_ - swing.limit, Scalar(0));
+        const Scalar back = to_turn_back(swing.angle - swing.limit, start, swing_push_);
+        const Scalar wanted = std::max(swing_push_ + push_for(a, b, swing.axis, back), Scalar(0));
         turn(a, b, swing.axis, swing_push_ - wanted);
         swing_push_ = wanted;
     }
@@ -212,10 +238,13 @@ private:
         }
         const Vec axis = twist_axis(a, b);
         const Scalar before = twist_push_;
-        if (twist > twist_most_ || before < 0) {
-            twist_push_ = std::min(before + push_for(a, b, axis, twist_most_ - twist), Scalar(0));
-        } else if (twist < twist_least_ || before > 0) {
-            twist_push_ = std::max(before + push_for(a, b, axis, twist_least_ - twist), Scalar(0));
+        const bool soft = softness_.is_soft();
+        if (twist > (soft ? twist_max_ : twist_most_) || before < 0) {
+            const Scalar back = to_turn_back(twist - twist_max_, twist_most_ - twist_max_, -before);
+            twist_push_ = std::min(before - push_for(a, b, axis, back), Scalar(0));
+        } else if (twist < (soft ? twist_min_ : twist_least_) || before > 0) {
+            const Scalar back = to_turn_back(twist_min_ - twist, twist_min_ - twist_least_, before);
+            twist_push_ = std::max(before + push_for(a, b, axis, back), Scalar(0));
         }
         turn(a, b, axis, twist_push_ - before);
     }
@@ -230,8 +259,8 @@ private:
         }
     }
 
-    static Scalar push_for(const Body& a, const Body& b, const Vec& axis, Scalar angle) {
-        return angle / axis.dot(a.world_inverse * axis + b.world_inverse * axis);
+    Scalar push_for(const Body& a, const Body& b, const Vec& axis, Scalar angle) const {
+        return angle / (axis.dot(a.world_inverse * axis + b.world_inverse * axis) + softness_.added);
     }
     static void turn(Body& a, Body& b, const Vec& axis, Scalar push) {
         a.turn(a.world_inverse * axis * -push);
@@ -241,6 +270,7 @@ private:
     Quat frame_a_, frame_b_;
     bool swings_, twists_;
     Scalar limit_x_, limit_z_, twist_min_, twist_max_;
+    Softness<Scalar> softness_;
     // kg·m²: carried from substep to substep.
     Scalar swing_push_ = 0, twist_push_ = 0;
     // Of the substep.

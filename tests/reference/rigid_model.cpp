@@ -74,7 +74,13 @@ RigidJoint rigid_joint(const lks_joint_def& def, std::size_t a, std::size_t b) {
             radians(def.swing_limit),
             radians(def.swing_limit_z < 0 ? def.swing_limit : def.swing_limit_z),
             radians(def.twist_min),
-            radians(def.twist_max)};
+            radians(def.twist_max),
+            support::metres(def.compliance),
+            support::metres(def.damping),
+            support::metres(def.angular_compliance),
+            support::metres(def.angular_damping),
+            support::metres(def.limit_compliance),
+            support::metres(def.limit_damping)};
 }
 
 lks_joint_def joint_of_bone(const lks_bone* bones, std::uint32_t bone) {

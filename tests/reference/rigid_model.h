@@ -49,6 +49,9 @@ struct RigidJoint {
     // Radians; π, and -π: none.
     double swing_limit, swing_limit_z;
     double twist_min, twist_max;
+    double compliance = 0, damping = 0;                 // of the points: m/N, N·s/m
+    double angular_compliance = 0, angular_damping = 0; // rad/(N·m), N·m·s
+    double limit_compliance = 0, limit_damping = 0;
 };
 
 // Stays where it is.
@@ -59,7 +62,7 @@ struct RigidCollider {
     RigidSurface surface;
 };
 
-// Joints form trees and stand in their order, from the body of the lowest index on.
+// Joints that form trees stand in their order, from the body of the lowest index on.
 struct RigidModel {
     std::vector<RigidBody> bodies;
     std::vector<RigidJoint> joints;

@@ -22,6 +22,7 @@ struct RigidParts {
     std::vector<Joint> joints;
     std::vector<Contact> contacts;
     std::vector<std::size_t> figures; // of each body: the number of one of its figure
+    std::vector<bool> held;           // by the figure's number: by a joint to what does not move
 
     void find_figures() {
         figures.resize(bodies.size());
@@ -30,6 +31,12 @@ struct RigidParts {
             if (bodies[joint.a].moves && bodies[joint.b].moves) {
                 const std::size_t from = figures[joint.b];
                 std::replace(figures.begin(), figures.end(), from, figures[joint.a]);
+            }
+        }
+        held.resize(bodies.size());
+        for (const Joint& joint : joints) {
+            if (bodies[joint.a].moves != bodies[joint.b].moves) {
+                held[figure_of(joint)] = true;
             }
         }
     }

@@ -1,17 +1,18 @@
 // Rigid bodies, their joints with limits, and contacts in floating point: the twin that the integer solver is
 // measured against.
 //
-// The same substeps in the same order: the implicit midpoint rule for spins, Cayley's map, the points of all
-// joints by one linear solve with the velocities that follow, what hinges and fixed joints don't let turn by
-// a block each, limits and contacts by rows whose pushes only push, carried pushes with a factor for each
-// figure, impacts before the prediction, and errors undone without speed. What differs:
-//   - the points' system is a dense matrix for each figure, where the SDK eliminates it along its tree;
+// The same substeps in the same order: the implicit midpoint rule for spins, Cayley's map, the points of a
+// tree's joints by one linear solve with the velocities that follow, those of soft joints and of those that
+// close loops by a block each, what hinges and fixed joints don't let turn by another, limits and contacts by
+// rows whose pushes only push, carried pushes with a factor for each figure, impacts before the prediction,
+// and errors undone without speed. What differs:
+//   - the points' system is a dense matrix for each tree, where the SDK eliminates it along its tree;
 //   - pushes are in kg·m, turns in radians: no shares, no units of length, no clamps but of turns;
 //     directions are as exact as the numbers, where the SDK has 30 fraction bits;
 //   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing;
 //   - the figures' factors are as exact as the numbers, where the SDK has motions of 26 fraction bits.
-// A body has one shape. There are no motors, friction of joints, soft joints, loops, damping and sleep, and
-// no colliders that move.
+// A body has one shape. There are no motors, friction of joints, distance joints, attachments, damping and
+// sleep of bodies, no colliders that move, and no iterations more after hard impacts.
 #pragma once
 
 #include <algorithm>
@@ -46,11 +47,11 @@ public:
             add_still(from);
         }
         for (const RigidJoint& from : model.joints) {
-            joints_.emplace_back(from);
+            joints_.emplace_back(from, rate_);
             bodies_[from.a].jointed = bodies_[from.b].jointed = true;
         }
         parts_.find_figures();
-        trees_.find(parts_);
+        trees_.find();
     }
 
     void tick(int count = 1) {
@@ -71,6 +72,7 @@ public:
     void add(const RigidCollider& collider) {
         search_.add(collider);
         parts_.figures.push_back(bodies_.size());
+        parts_.held.push_back(false);
         add_still(collider);
     }
 
@@ -139,6 +141,14 @@ private:
         }
         parts_.for_each_contact(
             [this](Contact& contact, Body& a, Body& b) { contact.restore_speed(a, b, least_approach_); });
+        parts_.for_each_joint([](const Joint& joint, Body& a, Body& b) {
+            if (!joint.in_tree) {
+                joint.undo_turn(a, b);
+                joint.undo_points(a, b);
+                a.orientation = a.orientation.normalised();
+                b.orientation = b.orientation.normalised();
+            }
+        });
         for (const bool shared : {false, true}) {
             parts_.for_each_contact([&](Contact& contact, Body& a, Body& b) {
                 if (parts_.is_shared(contact) == shared) {
@@ -179,7 +189,7 @@ private:
         };
         const auto turn = [&](Joint& joint) {
             if (take(parts_.figure_of(joint)) && !(with_turns && joint.in_held_tree)) {
-                joint.project_turn(bodies_[joint.a], bodies_[joint.b]);
+                joint.project(bodies_[joint.a], bodies_[joint.b]);
             }
         };
         const auto solve = [&] {
@@ -225,9 +235,10 @@ private:
         for (int round = 0; round < 16; ++round) {
             std::vector<bool> strained(bodies_.size());
             bool any = false;
-            for (const JointTree<Scalar>& tree : trees_) {
-                if (tree.held && held_.is_strained(tree, true)) {
-                    strained[parts_.figure_of(joints_[tree.joints.front()])] = any = true;
+            for (const Joint& joint : joints_) {
+                const std::size_t figure = parts_.figure_of(joint);
+                if (parts_.held[figure] && held_.is_strained(joint, true)) {
+                    strained[figure] = any = true;
                 }
             }
             if (!any) {
@@ -246,11 +257,11 @@ private:
 
     void carry_pushes_on() {
         parts_.for_each_joint([](Joint& joint, Body& a, Body& b) {
-            joint.prepare_turn(a, b);
+            joint.prepare(a, b);
             if (joint.in_held_tree) {
                 CarriedPushes<Scalar>::carry_torque(a, b, joint.carried_turn(a, b));
             } else {
-                joint.turn_again(a, b);
+                joint.push_again(a, b);
             }
         });
         parts_.for_each_contact(

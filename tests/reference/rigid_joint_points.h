@@ -1,0 +1,63 @@
+// The points of one joint by a block of its own, in the rigid reference solver: of soft joints and of those
+// that close loops, whose points no tree solves.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "reference/rigid_body.h"
+#include "reference/rigid_softness.h"
+#include "reference/symmetric_system.h"
+
+namespace reference {
+
+template <typename Scalar>
+class JointPoints {
+public:
+    using Vec = Vector3<Scalar>;
+    using Body = MovingBody<Scalar>;
+
+    explicit JointPoints(const Softness<Scalar>& softness) : softness_(softness) {}
+
+    // At the predicted pose: K = Σ (1/m − r̂ I⁻¹ r̂), and what is soft.
+    void factor(const Body& a, const Vec& lever_a, const Body& b, const Vec& lever_b) {
+        std::vector<Scalar> k(9);
+        for (int column = 0; column < 3; ++column) {
+            const Vec axis = along_axis(column, Scalar(1));
+            const Vec moved =
+                axis * softness_.added + motion_of(a, lever_a, axis) + motion_of(b, lever_b, axis);
+            for (int row = 0; row < 3; ++row) {
+                k[static_cast<std::size_t>(3 * row + column)] = component(moved, row);
+            }
+        }
+        k_.factor(3, std::move(k));
+    }
+
+    // XPBD of soft ones; `motion` is that of the substep.
+    Vec next_push(const Vec& error, const Vec& motion, const Vec& push) const {
+        return push - pushed_by(softness_.is_soft() ? softness_.left(error, motion, push) : error);
+    }
+    // What brings them together.
+    Vec pushed_by(const Vec& error) const {
+        std::vector<Scalar> push{error.x, error.y, error.z};
+        k_.solve(push);
+        return {push[0], push[1], push[2]};
+    }
+
+    // b forward and a back.
+    static void push_apart(Body& a, const Vec& lever_a, Body& b, const Vec& lever_b, const Vec& push) {
+        BodyMove<Scalar>{push * -a.inverse_mass, a.world_inverse * cross(lever_a, push * Scalar(-1))}
+            .apply_to(a);
+        BodyMove<Scalar>{push * b.inverse_mass, b.world_inverse * cross(lever_b, push)}.apply_to(b);
+    }
+
+private:
+    static Vec motion_of(const Body& body, const Vec& lever, const Vec& push) {
+        return push * body.inverse_mass + cross(body.world_inverse * cross(lever, push), lever);
+    }
+
+    Softness<Scalar> softness_;
+    SymmetricSystem<Scalar> k_;
+};
+
+} // namespace reference
