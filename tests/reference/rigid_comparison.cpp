@@ -89,6 +89,11 @@ void RigidScene::join(lks_joint_def def, std::size_t a, std::size_t b) {
     model_.joints.push_back(rigid_joint(def, a, b));
 }
 
+void RigidScene::drive(std::size_t joint, const lks_motor& motor) {
+    REQUIRE(lks_joint_set_motor(world_, joints_[joint], &motor) == LKS_OK);
+    model_.joints[joint].motor = rigid_motor(motor);
+}
+
 std::vector<RigidDeviation> RigidScene::run(const std::vector<int>& ticks) {
     RigidSolver<double> expected(model_, settings_);
     RigidSolver<float> single(model_, settings_);

@@ -36,6 +36,9 @@ public:
     std::size_t add_anchor(const lks_vec3& position);
     void join(lks_joint_def def, std::size_t a, std::size_t b);
 
+    // Joints by the order in which they were added.
+    void drive(std::size_t joint, const lks_motor& motor);
+
     // The greatest until each of these ticks, in ascending order. Once a scene.
     std::vector<RigidDeviation> run(const std::vector<int>& ticks);
 

@@ -46,6 +46,7 @@ public:
         start = is_soft() ? Vec{} : begin_;
         turn_start_ = keeps_turn() ? turned_apart(body_a, body_b) : Vec{};
         limits.begin(body_a, body_b);
+        drive_.begin(body_a, body_b);
     }
 
     // Trees are of rigid ones.
@@ -72,8 +73,8 @@ public:
     void prepare(const Body& body_a, const Body& body_b) {
         limits.prepare();
         drive_.prepare();
-        if (!in_tree) {
-            push = is_soft() ? Vec{} : push;
+        push = is_soft() ? Vec{} : push;
+        if (!in_tree || drive_.is_motor()) {
             points_.factor(body_a, lever_a, body_b, lever_b);
         }
         if (holds_turn()) {
@@ -90,18 +91,20 @@ public:
             turn_apart(body_a, body_b, turn_);
         }
         limits.push_again(body_a, body_b);
+        turn_apart(body_a, body_b, drive_.pushed());
         if (!in_tree) {
             push_apart(body_a, body_b, push);
         }
     }
     // What turns b against a; and what is added to it by a share.
     Vec carried_turn(const Body& body_a, const Body& body_b) const {
-        return (holds_turn() ? turn_ : Vec{}) + limits.pushed(body_a, body_b);
+        return (holds_turn() ? turn_ : Vec{}) + limits.pushed(body_a, body_b) + drive_.pushed();
     }
     Vec add_to_carried_turn(const Body& body_a, const Body& body_b, Scalar share) {
         const Vec before = carried_turn(body_a, body_b);
         turn_ = turn_ + turn_ * share;
         limits.scale(share);
+        drive_.add(share);
         return carried_turn(body_a, body_b) - before;
     }
     void carry_more(Body& body_a, Body& body_b, Scalar share) {
@@ -111,6 +114,7 @@ public:
             turn_apart(body_a, body_b, more);
         }
         limits.carry_more(body_a, body_b, share);
+        turn_apart(body_a, body_b, drive_.add(share));
         if (!in_tree) {
             const Vec more = push * share;
             push = push + more;
@@ -118,7 +122,13 @@ public:
         }
     }
 
+    // A motor turns about the joint, and a row about the centres of mass: some rounds with the points in
+    // between make one of the other.
     void project(Body& body_a, Body& body_b) {
+        for (int round = 0; round < 3 && drive_.is_motor(); ++round) {
+            drive_.project(body_a, body_b);
+            project_points(body_a, body_b);
+        }
         drive_.project(body_a, body_b);
         if (holds_turn()) {
             turn_ = turn_ + turn_back(body_a, body_b, left_to_turn(body_a, body_b));
@@ -259,7 +269,9 @@ private:
         const auto turned = [&](const Vec& push) {
             return body_a.world_inverse * push + body_b.world_inverse * push + push * turn_softness_.added;
         };
-        const Scalar along = hinge ? greatest(turned({1, 1, 1})) : Scalar(0);
+        // As large as the greatest across.
+        const auto weight = [&](int i) { return component(turned(axes[i]), i); };
+        const Scalar along = hinge ? std::max({weight(0), weight(1), weight(2)}) : Scalar(0);
         std::vector<Scalar> matrix(9);
         for (std::size_t row = 0; row < 3; ++row) {
             for (std::size_t column = 0; column <= row; ++column) {

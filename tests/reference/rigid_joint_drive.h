@@ -1,5 +1,9 @@
-// What resists a joint's turning by its speed, in the rigid reference solver (sdk/src/rigid/joint_drive.h).
+// What a joint resists turning with, and its motor, in the rigid reference solver
+// (sdk/src/rigid/joint_drive.h).
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include "reference/rigid_body.h"
 
@@ -9,19 +13,43 @@ template <typename Scalar>
 class JointDrive {
 public:
     using Vec = Vector3<Scalar>;
+    using Quat = Quaternion<Scalar>;
     using Body = MovingBody<Scalar>;
 
     // rate: substeps a second.
     JointDrive(const RigidJoint& joint, Scalar rate)
-        : drags_(joint.angular_damping > 0),
+        : hinge_(joint.kind == LKS_JOINT_HINGE), frame_a_(quaternion_of<Scalar>(joint.frame_a)),
+          frame_b_(quaternion_of<Scalar>(joint.frame_b)), motor_(joint.motor.max_torque > 0),
+          target_(quaternion_of<Scalar>(joint.motor.target)),
+          motor_share_(1 / std::max(static_cast<Scalar>(joint.motor.response) * rate, Scalar(8))),
+          most_(static_cast<Scalar>(motor_ ? joint.motor.max_torque : joint.friction) / (rate * rate)),
+          drags_(joint.angular_damping > 0),
           drag_softness_(drags_ ? rate / static_cast<Scalar>(joint.angular_damping) : 0) {}
 
-    // Drags begin each substep anew.
-    void prepare() { drag_ = {}; }
+    bool is_motor() const { return motor_; }
+
+    // Before the prediction: what the motor is to turn in the substep.
+    void begin(const Body& a, const Body& b) { aim_ = motor_ ? missing_turn(a, b) * motor_share_ : Vec{}; }
+
+    // Drags begin each substep anew, and motors with less than they pushed: swings would feed on it.
+    void prepare() {
+        drag_ = {};
+        grip_ = grip_ * (motor_ ? 1 - 2 * motor_share_ : Scalar(1));
+    }
+    const Vec& pushed() const { return grip_; }
+    // What is added.
+    Vec add(Scalar share) {
+        const Vec before = grip_;
+        grip_ = within_grip(before + before * share);
+        return grip_ - before;
+    }
 
     void project(Body& a, Body& b) {
         if (drags_) {
             drag(a, b);
+        }
+        if (most_ > 0) {
+            drive(a, b);
         }
     }
 
@@ -33,6 +61,44 @@ private:
                Scalar(2);
     }
 
+    // To the target, about any axis or about the hinge's.
+    Vec missing_turn(const Body& a, const Body& b) const {
+        const Quat now = (a.orientation * frame_a_).conjugate() * (b.orientation * frame_b_);
+        Quat q = target_ * now.conjugate();
+        if (hinge_) {
+            q.x = q.z = 0;
+        }
+        const Scalar sine = q.vector().length();
+        if (sine == 0) {
+            return {};
+        }
+        const Scalar angle = 2 * std::atan2(q.w < 0 ? -sine : sine, std::abs(q.w));
+        return a.rotation * (frame_a_.matrix() * q.vector()) * (angle / sine);
+    }
+
+    // As much of it as friction, or the motor, is capable of.
+    Vec within_grip(const Vec& push) const {
+        const Scalar size = push.length();
+        return size > most_ ? push * (most_ / size) : push;
+    }
+
+    // A push about the axis that turns so far.
+    static Vec push_for(const Body& a, const Body& b, const Vec& axis, Scalar angle, Scalar softness) {
+        return axis * (angle / (axis.dot(a.world_inverse * axis + b.world_inverse * axis) + softness));
+    }
+
+    // By what the aim is missed by.
+    void drive(Body& a, Body& b) {
+        const Vec missed = turned_since_start(a, b) - aim_;
+        const Scalar size = missed.length();
+        if (size == 0) {
+            return;
+        }
+        const Vec before = grip_;
+        grip_ = within_grip(before + push_for(a, b, missed * (1 / size), -size, 0));
+        turn_apart(a, b, grip_ - before);
+    }
+
     // A torque against the speed of turning.
     void drag(Body& a, Body& b) {
         const Vec turned = turned_since_start(a, b);
@@ -41,15 +107,23 @@ private:
             return;
         }
         const Vec axis = turned * (1 / size);
-        const Scalar weight = axis.dot(a.world_inverse * axis + b.world_inverse * axis) + drag_softness_;
-        const Vec push = axis * (-(size + drag_softness_ * axis.dot(drag_)) / weight);
+        const Vec push = push_for(a, b, axis, -(size + drag_softness_ * axis.dot(drag_)), drag_softness_);
         drag_ = drag_ + push;
         turn_apart(a, b, push);
     }
 
+    bool hinge_;
+    Quat frame_a_, frame_b_;
+    bool motor_;
+    Quat target_;
+    Scalar motor_share_; // of what is missing, in a substep
+    Scalar most_;        // kg·m², of friction or the motor; 0: none
     bool drags_;
     Scalar drag_softness_;
-    Vec drag_; // kg·m², of the substep
+    Vec grip_; // kg·m², of friction or the motor: carried from substep to substep
+    // Of the substep.
+    Vec aim_;
+    Vec drag_; // kg·m²
 };
 
 } // namespace reference

@@ -80,7 +80,13 @@ RigidJoint rigid_joint(const lks_joint_def& def, std::size_t a, std::size_t b) {
             support::metres(def.angular_compliance),
             support::metres(def.angular_damping),
             support::metres(def.limit_compliance),
-            support::metres(def.limit_damping)};
+            support::metres(def.limit_damping),
+            support::metres(def.friction),
+            {}};
+}
+
+RigidMotor rigid_motor(const lks_motor& motor) {
+    return {support::metres(motor.max_torque), support::metres(motor.response), rotation_of(motor.target)};
 }
 
 lks_joint_def joint_of_bone(const lks_bone* bones, std::uint32_t bone) {

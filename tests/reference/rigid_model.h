@@ -41,6 +41,12 @@ struct RigidBody {
     bool touches_bodies = false; // but those that a joint holds to it
 };
 
+struct RigidMotor {
+    double max_torque = 0; // N·m; 0: off
+    double response = 0;   // seconds
+    Rotation target;       // b's frame in a's
+};
+
 struct RigidJoint {
     std::uint32_t kind; // lks_joint_kind: ball, hinge or fixed
     std::size_t a, b;
@@ -52,6 +58,8 @@ struct RigidJoint {
     double compliance = 0, damping = 0;                 // of the points: m/N, N·s/m
     double angular_compliance = 0, angular_damping = 0; // rad/(N·m), N·m·s
     double limit_compliance = 0, limit_damping = 0;
+    double friction = 0; // N·m
+    RigidMotor motor;
 };
 
 // Stays where it is.
@@ -73,6 +81,7 @@ struct RigidModel {
 // density.
 RigidBody rigid_body(const lks_body_def& def, const lks_body_shape& shape, double mass);
 RigidJoint rigid_joint(const lks_joint_def& def, std::size_t a, std::size_t b);
+RigidMotor rigid_motor(const lks_motor& motor);
 // Of a bone to its parent: bones that stand upright in the rest pose, each its own shape's middle.
 lks_joint_def joint_of_bone(const lks_bone* bones, std::uint32_t bone);
 RigidCollider rigid_collider(const lks_collider_def& def);

@@ -11,8 +11,8 @@
 //     directions are as exact as the numbers, where the SDK has 30 fraction bits;
 //   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing;
 //   - the figures' factors are as exact as the numbers, where the SDK has motions of 26 fraction bits.
-// A body has one shape. There are no motors, friction of joints, distance joints, attachments, damping and
-// sleep of bodies, no colliders that move, and no iterations more after hard impacts.
+// A body has one shape. There are no distance joints, attachments, damping and sleep of bodies, no colliders
+// that move, and no iterations more after hard impacts.
 #pragma once
 
 #include <algorithm>
