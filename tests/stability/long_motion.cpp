@@ -185,7 +185,7 @@ TEST_CASE("a ragdoll that is driven to and fro stays in one piece") {
         }
     }
     const std::string scene = scene_of("ragdoll driven to and fro");
-    const char* const no_twin = "it has no motors";
+    const char* const no_twin = "it is given no poses";
     expect_at_most(scene, "joints apart, worst", "mm", 0.2, 1000 * apart, no_twin);
     expect_at_most(scene, "kinetic energy, worst", "J", 3e3, energy, no_twin);
 }

@@ -1,5 +1,5 @@
 // Bodies on joints and on the ground in a world of the SDK, and the float32 twin of them beside it. The twin
-// knows no motors and no damping.
+// knows no damping of bodies.
 #pragma once
 
 #include <cstddef>
