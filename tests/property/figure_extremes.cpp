@@ -23,9 +23,7 @@ struct Figure {
     double worst_joint() const {
         double worst = 0;
         for (const lks_joint_id joint : joints) {
-            lks_fixed error = 0;
-            REQUIRE(lks_joint_error(world, joint, &error) == LKS_OK);
-            worst = std::max(worst, metres(error));
+            worst = std::max(worst, error_of(world, joint));
         }
         return worst;
     }

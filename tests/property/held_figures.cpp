@@ -51,13 +51,7 @@ public:
         for (std::size_t i = 0; i < joints_.size(); ++i) {
             apart_ = std::max(apart_, error_of(world_, joints_[i]));
             // Joints are those of the bones behind the first.
-            const lks_bone& bone = ready_.bones[i + 1];
-            lks_fixed swing = 0;
-            lks_fixed twist = 0;
-            REQUIRE(lks_joint_angles(world_, joints_[i], &swing, &twist) == LKS_OK);
-            const double most_swing = metres(std::max(bone.swing_limit, bone.swing_limit_z));
-            beyond_ = std::max({beyond_, metres(twist - bone.twist_max), metres(bone.twist_min - twist),
-                                bone.joint_kind == LKS_JOINT_BALL ? metres(swing) - most_swing : 0.0});
+            beyond_ = std::max(beyond_, degrees_beyond(world_, ready_.bones[i + 1], joints_[i]));
         }
         kinetic_ = std::max(kinetic_, motion());
         gained_ = std::max(gained_, energy() - first_);

@@ -64,7 +64,8 @@ public:
             sum_ += error;
             worst_ = std::max(worst_, error);
             ++count_;
-            limit_now_ = std::max(limit_now_, beyond(i));
+            limit_now_ =
+                std::max(limit_now_, degrees_beyond(world_, human_.bones[1 + i % joint_count], joints_[i]));
         }
         limit_ = std::max(limit_, limit_now_);
     }
@@ -97,17 +98,6 @@ public:
     double limit_now() const { return limit_now_; }
 
 private:
-    // Degrees by which a joint is beyond what it allows.
-    double beyond(std::size_t joint) const {
-        const lks_bone& bone = human_.bones[1 + joint % joint_count];
-        lks_fixed swing = 0;
-        lks_fixed twist = 0;
-        REQUIRE(lks_joint_angles(world_, joints_[joint], &swing, &twist) == LKS_OK);
-        const double cone = bone.joint_kind == LKS_JOINT_BALL ? metres(bone.swing_limit) : 0;
-        return std::max({0.0, metres(swing) - cone, metres(twist) - metres(bone.twist_max),
-                         metres(bone.twist_min) - metres(twist)});
-    }
-
     double overlap_of(std::size_t body) const {
         const lks_body_shape& shape = human_.shapes[body % LKS_HUMANOID_BONES];
         const bool box = shape.shape == LKS_SHAPE_BOX;

@@ -23,11 +23,7 @@ struct Soft {
         world.step(600);
         REQUIRE(state_of(world, body).velocity.length() < 1e-5);
     }
-    double error() const {
-        lks_fixed error = 0;
-        REQUIRE(lks_joint_error(world, id, &error) == LKS_OK);
-        return metres(error);
-    }
+    double error() const { return error_of(world, id); }
 
     World world;
     lks_body_id body{};

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "support/handles.h"
 
 namespace support {
@@ -142,6 +144,17 @@ inline double error_of(const World& world, lks_joint_id joint) {
     lks_fixed error = 0;
     REQUIRE(lks_joint_error(world, joint, &error) == LKS_OK);
     return metres(error);
+}
+
+// Degrees by which a bone's joint is beyond what it allows, of an ellipse by its wider axis.
+inline double degrees_beyond(const World& world, const lks_bone& bone, lks_joint_id joint) {
+    lks_fixed swing = 0;
+    lks_fixed twist = 0;
+    REQUIRE(lks_joint_angles(world, joint, &swing, &twist) == LKS_OK);
+    const lks_fixed cone =
+        bone.joint_kind == LKS_JOINT_BALL ? std::max(bone.swing_limit, bone.swing_limit_z) : 0;
+    return std::max({0.0, metres(swing) - metres(cone), metres(twist) - metres(bone.twist_max),
+                     metres(bone.twist_min) - metres(twist)});
 }
 
 inline double energy_of(const World& world) {
