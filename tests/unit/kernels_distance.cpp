@@ -160,8 +160,8 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
         const auto share = static_cast<std::uint32_t>(random.bits() >> 33);
         const bool may_differ = is_in(problem.unequal_shares, static_cast<std::uint32_t>(i));
         const bool equal = !may_differ || random.bits() % 8 != 0;
-        problem.parts_b.push_back(
-            static_cast<std::uint32_t>(equal ? direction_one / 2 : random.bits() % (direction_one + 1)));
+        problem.parts_b.push_back(equal ? half_part
+                                        : static_cast<std::uint32_t>(random.bits() % (direction_one + 1)));
         if (random.bits() % 16 == 0 && may_differ) {
             problem.parts_b.back() = random.below(2) == 0 ? 0 : direction_one;
         }
@@ -455,7 +455,7 @@ TEST_CASE("kernels: a part of a run writes nothing behind its end, where others 
     const Constraint none{};
     const std::vector<std::uint32_t> rests(2 * widest_group, 0x80000000u); // an eighth of a metre
     const std::vector<std::uint32_t> shares(2 * widest_group, unit_one / 2);
-    const std::vector<std::uint32_t> parts(2 * widest_group, direction_one / 2);
+    const std::vector<std::uint32_t> parts(2 * widest_group, half_part);
     const auto projected = [&](const Kernels& kernels) {
         std::vector<std::int64_t> axes(6 * widest_group, 0);
         std::fill_n(axes.begin() + part, part, coordinate_one / 10);

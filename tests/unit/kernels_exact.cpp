@@ -129,7 +129,7 @@ Edge any_edge(test::Random& random) {
     }
     edge.multiplier = edge_value(random, shift);
     edge.rest = random.below(2) == 0 ? UINT32_MAX >> random.below(4) : 0x80000000u >> random.below(4);
-    edge.part_b = random.below(2) == 0   ? direction_one / 2
+    edge.part_b = random.below(2) == 0   ? half_part
                   : random.below(3) == 0 ? static_cast<std::uint32_t>(one_of(random, part_edges))
                                          : static_cast<std::uint32_t>(random.below(direction_one + 1));
     edge.share = edge.part_b == half_part ? (any_unit(random) + 1) / 2 : any_unit(random);
@@ -227,7 +227,7 @@ public:
         part.run_count = 1;
         part.whole = true;
         part.first_single = length;
-        part.unequal_shares = {0, edge.part_b == direction_one / 2 ? 0 : count};
+        part.unequal_shares = {0, edge.part_b == half_part ? 0 : count};
         DistanceTask task{};
         task.parts = &part;
         task.part_count = 1;

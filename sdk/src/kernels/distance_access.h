@@ -70,7 +70,7 @@ struct RunAccess {
     // Nothing for them.
     LKS_FORCE_INLINE void clear_done(Factors<L>& values) const {
         if (done != 0) {
-            values = FactorsOf<L>::masked(values, lane_mask<L>(widest_group - done));
+            values = FactorsOf<L>::where(FactorsOf<L>::low(lane_mask<L>(widest_group - done)), values);
         }
     }
 

@@ -115,9 +115,9 @@ public:
     template <bool alike_throughout, typename Access>
     LKS_FORCE_INLINE void move(const Access& at, const StagedGroup<L>& group) const {
         if (alike_throughout || alike(at)) {
-            move_by_gain(at, group.d, gain(at, group.f));
+            move_all<false>(at, group.d, group.f);
         } else {
-            move_by_parts(at, group.d, gain_of_both(at, group.f));
+            move_unequal(at, group, group.f);
         }
     }
 
@@ -137,26 +137,18 @@ public:
                                RollingGroup<L, Access>& next, OfDifferences& sums, N& f) const {
         R beyond = L::set(0);
         OfDifferences of_next;
-        const N gain = gain_that<by_parts>(before.at, f);
+        const N gain = find_gain<by_parts>(before.at, f);
         const auto meanwhile = [&](int axis) {
             if constexpr (Access::in_rows) {
                 if (axis == 1) {
                     find_each_difference(next.at, next.staged.d, of_next, beyond);
                 } else if (axis == 2) {
-                    if constexpr (by_parts) {
-                        move_by_parts(before.at, before.staged.d, gain);
-                    } else {
-                        move_by_gain(before.at, before.staged.d, gain);
-                    }
+                    move_by_gain<by_parts>(before.at, before.staged.d, gain);
                 }
             } else {
                 find_difference(next.at, differences(next.at, axes_), start_differences(next.at), axis,
                                 next.staged.d, of_next, beyond);
-                if constexpr (by_parts) {
-                    move_axis_by_parts(before.at, axis, before.staged.d[axis], gain);
-                } else {
-                    move_axis(before.at, axis, before.staged.d[axis], gain);
-                }
+                move_axis<by_parts>(before.at, axis, before.staged.d[axis], gain);
             }
         };
         const Aligned<L, 1> aligned = align_sum<in_octave>(sums.u);
@@ -175,7 +167,7 @@ public:
     // Where ends have shares of their own.
     template <typename Access>
     LKS_FORCE_INLINE void move_unequal(const Access& at, const StagedGroup<L>& group, const N& f) const {
-        move_by_parts(at, group.d, gain_of_both(at, f));
+        move_all<true>(at, group.d, f);
     }
     // Whether both ends move alike.
     template <typename Access>
@@ -458,50 +450,60 @@ private:
                            L::shift_right_each(lift, right));
     }
 
-    template <typename Access>
-    LKS_FORCE_INLINE N gain(const Access& at, const N& f) const {
-        return rounded_gain_shift_.factors(F::multiply_signed(at.load(task_.shares), f));
-    }
-    // As both_movements wants it.
-    template <typename Access>
-    LKS_FORCE_INLINE N gain_of_both(const Access& at, const N& f) const {
-        const N once = gain(at, f);
-        if constexpr (soft) {
-            return once;
-        } else {
-            return F::sum(once, F::where(moves_alike(at.load(task_.parts_b)), once));
-        }
-    }
+    // `by_parts`: as both_movements wants it.
     template <bool by_parts, typename Access>
-    LKS_FORCE_INLINE N gain_that(const Access& at, const N& f) const {
-        if constexpr (by_parts) {
-            return gain_of_both(at, f);
+    LKS_FORCE_INLINE N find_gain(const Access& at, const N& f) const {
+        const N once = rounded_gain_shift_.factors(F::multiply_signed(at.load(task_.shares), f));
+        if constexpr (by_parts && !soft) {
+            return F::sum(once, F::where(moves_alike(at.load(task_.parts_b)), once));
         } else {
-            return gain(at, f);
+            return once;
         }
     }
     LKS_FORCE_INLINE static N moves_alike(const N& part_b) {
         return F::equal(part_b, F::constant(half_part));
     }
 
-    template <typename Access>
+    // Both ends alike, or each by its part.
+    template <bool by_parts, typename Access>
+    LKS_FORCE_INLINE void move_all(const Access& at, const N* d, const N& f) const {
+        move_by_gain<by_parts>(at, d, find_gain<by_parts>(at, f));
+    }
+
+    template <bool by_parts, typename Access>
     LKS_FORCE_INLINE void move_by_gain(const Access& at, const N* d, const N& gain) const {
-        if constexpr (Access::in_rows) {
+        if constexpr (!Access::in_rows) {
+            for (int axis = 0; axis < 3; ++axis) {
+                move_axis<by_parts>(at, axis, d[axis], gain);
+            }
+        } else if constexpr (by_parts) {
+            const N part = at.load(task_.parts_b);
+            const G x = both_movements(d[0], gain, part);
+            const G y = both_movements(d[1], gain, part);
+            const G z = both_movements(d[2], gain, part);
+            const G x_b = part_of(x, part);
+            const G y_b = part_of(y, part);
+            const G z_b = part_of(z, part);
+            at.move(axes_[0], less(x, x_b), less(y, y_b), less(z, z_b), x_b, y_b, z_b);
+        } else {
             const G x = to_coordinate(F::multiply_signed(d[0], gain));
             const G y = to_coordinate(F::multiply_signed(d[1], gain));
             const G z = to_coordinate(F::multiply_signed(d[2], gain));
             at.move(axes_[0], x, y, z, x, y, z);
-        } else {
-            for (int axis = 0; axis < 3; ++axis) {
-                move_axis(at, axis, d[axis], gain);
-            }
         }
     }
 
-    template <typename Access>
+    template <bool by_parts, typename Access>
     LKS_FORCE_INLINE void move_axis(const Access& at, int axis, const N& d, const N& gain) const {
-        const G correction = to_coordinate(F::multiply_signed(d, gain));
-        at.move(axes_[axis], correction, correction);
+        if constexpr (by_parts) {
+            const N part = at.load(task_.parts_b);
+            const G both = both_movements(d, gain, part);
+            const G of_b = part_of(both, part);
+            at.move(axes_[axis], less(both, of_b), of_b);
+        } else {
+            const G correction = to_coordinate(F::multiply_signed(d, gain));
+            at.move(axes_[axis], correction, correction);
+        }
     }
 
     LKS_FORCE_INLINE G to_coordinate(const G& product) const {
@@ -538,32 +540,6 @@ private:
     }
     LKS_FORCE_INLINE static G less(const G& both, const G& of_b) {
         return {L::subtract(both.a, of_b.a), L::subtract(both.b, of_b.b)};
-    }
-
-    template <typename Access>
-    LKS_FORCE_INLINE void move_by_parts(const Access& at, const N* d, const N& gain) const {
-        if constexpr (Access::in_rows) {
-            const N part = at.load(task_.parts_b);
-            const G x = both_movements(d[0], gain, part);
-            const G y = both_movements(d[1], gain, part);
-            const G z = both_movements(d[2], gain, part);
-            const G x_b = part_of(x, part);
-            const G y_b = part_of(y, part);
-            const G z_b = part_of(z, part);
-            at.move(axes_[0], less(x, x_b), less(y, y_b), less(z, z_b), x_b, y_b, z_b);
-        } else {
-            for (int axis = 0; axis < 3; ++axis) {
-                move_axis_by_parts(at, axis, d[axis], gain);
-            }
-        }
-    }
-
-    template <typename Access>
-    LKS_FORCE_INLINE void move_axis_by_parts(const Access& at, int axis, const N& d, const N& gain) const {
-        const N part = at.load(task_.parts_b);
-        const G both = both_movements(d, gain, part);
-        const G of_b = part_of(both, part);
-        at.move(axes_[axis], less(both, of_b), of_b);
     }
 
     DistanceTask task_; // a copy, so that what is stored can't be thought to change it

@@ -232,9 +232,9 @@ private:
             (static_cast<std::int64_t>(shares_[constraint]) * f + gain_rounding_) >> parameters_.gain_shift;
         const std::uint32_t part = parts_b_[constraint];
         if (part == half_part) {
-            move_alike<far>(gain, a, b, d);
+            move<far, true>(gain, part, a, b, d);
         } else {
-            move_by_parts<far>(gain, part, a, b, d);
+            move<far, false>(gain, part, a, b, d);
         }
     }
 
@@ -250,35 +250,22 @@ private:
         }
     }
 
-    // Both ends by the same rounded correction: linear momentum is kept to the bit.
-    template <bool far>
-    LKS_FORCE_INLINE void move_alike(std::int64_t gain, std::ptrdiff_t a, std::ptrdiff_t b,
-                                     const NarrowDifference& d) const {
-        const auto move = [&](std::int64_t* axis, std::int64_t difference) {
-            const std::int64_t correction = movement<far>(difference, gain, d.extra);
+    // `alike`: both ends by the same rounded correction, so that linear momentum is kept to the bit.
+    // Otherwise b by its part of both movements, and a by what is left of them.
+    template <bool far, bool alike>
+    LKS_FORCE_INLINE void move(std::int64_t gain, std::uint32_t part, std::ptrdiff_t a, std::ptrdiff_t b,
+                               const NarrowDifference& d) const {
+        const auto move_axis = [&](std::int64_t* axis, std::int64_t difference) {
+            const std::int64_t moves = movement<far>(difference, gain, d.extra);
+            const std::int64_t of_b = alike ? moves : part_of(moves, part);
+            const std::int64_t of_a = alike ? moves : wrapping_subtract(moves, of_b);
             std::int64_t* x = as_it_stands(axis);
-            x[a] = wrapping_add(x[a], correction);
-            x[b] = wrapping_subtract(x[b], correction);
-        };
-        move(arrays_.x, d.x);
-        move(arrays_.y, d.y);
-        move(arrays_.z, d.z);
-    }
-
-    // b by its part of both movements, and a by what is left of them.
-    template <bool far>
-    LKS_FORCE_INLINE void move_by_parts(std::int64_t gain, std::uint32_t part, std::ptrdiff_t a,
-                                        std::ptrdiff_t b, const NarrowDifference& d) const {
-        const auto move = [&](std::int64_t* axis, std::int64_t difference) {
-            const std::int64_t both = movement<far>(difference, gain, d.extra);
-            const std::int64_t of_b = part_of(both, part);
-            std::int64_t* x = as_it_stands(axis);
-            x[a] = wrapping_add(x[a], wrapping_subtract(both, of_b));
+            x[a] = wrapping_add(x[a], of_a);
             x[b] = wrapping_subtract(x[b], of_b);
         };
-        move(arrays_.x, d.x);
-        move(arrays_.y, d.y);
-        move(arrays_.z, d.z);
+        move_axis(arrays_.x, d.x);
+        move_axis(arrays_.y, d.y);
+        move_axis(arrays_.z, d.z);
     }
 
     const std::uint32_t* rest_mantissas_;

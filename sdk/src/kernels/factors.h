@@ -38,10 +38,6 @@ struct EvenFactors {
     LKS_FORCE_INLINE static Factors sum(const Factors& x, const Factors& y) {
         return {L::add(x.a, y.a), L::add(x.b, y.b)};
     }
-    // Where there are bits, by 64-bit lanes.
-    LKS_FORCE_INLINE static Factors masked(const Factors& v, const Group<L>& bits) {
-        return {L::bit_and(v.a, bits.a), L::bit_and(v.b, bits.b)};
-    }
     LKS_FORCE_INLINE static Factors high(const Group<L>& v) {
         return {L::template shift_right<32>(v.a), L::template shift_right<32>(v.b)};
     }
@@ -88,9 +84,6 @@ struct PackedFactors {
     LKS_FORCE_INLINE static Factors less(Factors v, R amount) { return L::subtract_32(v, amount); }
     LKS_FORCE_INLINE static Factors difference(Factors x, Factors y) { return L::subtract_32(x, y); }
     LKS_FORCE_INLINE static Factors sum(Factors x, Factors y) { return L::add_32(x, y); }
-    LKS_FORCE_INLINE static Factors masked(Factors v, const Group<L>& bits) {
-        return L::bit_and(v, low(bits));
-    }
     LKS_FORCE_INLINE static Factors high(const Group<L>& v) { return L::pack_high_halves(v.a, v.b); }
     LKS_FORCE_INLINE static R high_words(const Group<L>& v) { return high(v); }
     LKS_FORCE_INLINE static Factors of_words(R words) { return words; }

@@ -43,10 +43,6 @@ void include(ConstraintRange& range, std::uint32_t constraint) {
     }
 }
 
-// s_a + s_b. What is pinned makes it less.
-Scaled sum_of_shares(const Scaled& w_a, const Scaled& w_b, const Scaled& softness) {
-    return (w_a + w_b) / (w_a + w_b + softness);
-}
 // ρ: a half where nothing moves.
 std::uint32_t part_of_b(const Scaled& w_a, const Scaled& w_b) {
     if (w_a == w_b) {
@@ -106,9 +102,9 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
         Scaled largest{};
         for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
             const Constraint& constraint = asset.constraints[i];
+            const Scaled w = asset.inverse_masses[constraint.a] + asset.inverse_masses[constraint.b];
             const Scaled share =
-                sum_of_shares(asset.inverse_masses[constraint.a], asset.inverse_masses[constraint.b],
-                              terms[batch.family].softness);
+                w / (w + terms[batch.family].softness); // of both ends; pinned ones make it less
             largest = largest < share ? share : largest;
         }
         // s_a + s_b ≤ 2^-exponent; beyond 40 a correction would be under one coordinate unit for any length.
@@ -162,7 +158,7 @@ void Coefficients::update_constraint(const lks_asset& asset, const StepRate& rat
     const bool was_unequal = parts_b[constraint] != half_part;
     parts_b[constraint] = part_of_b(w_a, w_b);
     const bool is_unequal = parts_b[constraint] != half_part;
-    shares[constraint] = to_share(sum_of_shares(w_a, w_b, terms.softness), exponent - (is_unequal ? 0 : 1));
+    shares[constraint] = to_share((w_a + w_b) / effective, exponent - (is_unequal ? 0 : 1));
     if (is_unequal) {
         // Never taken back: that would need a look at the whole batch.
         include(of_batch.unequal_shares, constraint);
