@@ -5,35 +5,20 @@
 #include <cmath>
 #include <string>
 
-#include "reference/rigid_bounds.h"
+#include "reference/rigid_scenes.h"
 
 using namespace support;
 using namespace reference;
 
 namespace {
 
-// Held at one end, level along x; the joint's axis is z turned about x.
 void add_arm(RigidScene& scene, std::uint32_t kind, double degrees) {
-    const std::size_t anchor = scene.add_anchor(fixed(0, 3, 0));
-    const std::size_t arm = scene.add(box_shape(0.5, 0.1, 0.05), at_rest(fixed(0.5, 3, 0)));
-    lks_joint_def def = joint(kind, fixed(0, 0, 0), fixed(-0.5, 0, 0));
-    def.frame_a.rotation = def.frame_b.rotation = about(1, 0, 0, 90 - degrees);
-    scene.join(def, anchor, arm);
+    add_arm(scene, joint(kind, {}, {}), degrees);
 }
 
-// Two capsules in free flight, the upper one thirty times as heavy.
+// Thirty times as heavy.
 void add_pair(RigidScene& scene, std::uint32_t kind) {
-    lks_body_def def = at_rest(fixed(0, 3, 0));
-    def.velocity = fixed(1, 5, 2);
-    def.angular_velocity = fixed(0, 0, 2);
-    def.mass = fixed(1);
-    const std::size_t light = scene.add(capsule_shape(0.1, 0.2), def);
-    def.transform.position = fixed(0, 3.7, 0);
-    def.velocity = fixed(-0.4, 5, 2);
-    def.angular_velocity = fixed(0.6, 1, 2);
-    def.mass = fixed(30);
-    const std::size_t heavy = scene.add(capsule_shape(0.1, 0.3), def);
-    scene.join(joint(kind, fixed(0, 0.3, 0), fixed(0, -0.4, 0)), light, heavy);
+    add_pair(scene, joint(kind, {}, {}), 30, fixed(-0.4, 5, 2), fixed(0.6, 1, 2));
 }
 
 } // namespace
@@ -75,15 +60,7 @@ TEST_CASE(
     for (const Case& c : {Case{8, 1, {6e-8, 1e-6, 1000}}, Case{20, 1, {2e-7, 5e-6, 1000}},
                           Case{20, 300, {6e-7, 5e-6, 1000}}, Case{20, 10000, {6e-7, 5e-6, 1000}}}) {
         RigidScene scene(with_substeps(c.substeps));
-        std::size_t above = scene.add_anchor(fixed(0, 5, 0));
-        for (int i = 0; i < 10; ++i) {
-            lks_body_def def = at_rest(fixed(0.1 + 0.2 * i, 5, 0));
-            def.transform.rotation = about(0, 0, 1, 90);
-            def.mass = fixed(i == 9 ? c.ratio : 1);
-            const std::size_t link = scene.add(capsule_shape(0.03, 0.08), def);
-            scene.join(joint(LKS_JOINT_BALL, fixed(0, i == 0 ? 0 : -0.1, 0), fixed(0, 0.1, 0)), above, link);
-            above = link;
-        }
+        add_chain(scene, 10, lks_default_joint_def(), lks_default_joint_def(), c.ratio);
         check("chain 1:" + std::to_string(c.ratio) + substeps_name(c.substeps) + ", 1 s",
               scene.run({second}).back(), c.bounds);
     }

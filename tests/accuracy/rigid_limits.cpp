@@ -1,7 +1,7 @@
 // How far bodies on joints with limits get from the same method in double precision, and float32 beside it.
 #include <doctest/doctest.h>
 
-#include "reference/rigid_bounds.h"
+#include "reference/rigid_scenes.h"
 
 using namespace support;
 using namespace reference;
@@ -10,17 +10,12 @@ namespace {
 
 // Hangs on a ball joint of 30° and from -20° to 35° of twist, and is pushed against all of them.
 void add_rod(RigidScene& scene, double swing_limit_z) {
-    const std::size_t anchor = scene.add_anchor(fixed(0, 3, 0));
-    lks_body_def def = at_rest(fixed(0, 2.5, 0));
-    def.angular_velocity = fixed(3, 2, 4);
-    def.velocity = fixed(2, 0, -1.5);
-    const std::size_t rod = scene.add(capsule_shape(0.1, 0.4), def);
-    lks_joint_def hold = joint(LKS_JOINT_BALL, fixed(0, 0, 0), fixed(0, 0.5, 0));
+    lks_joint_def hold = lks_default_joint_def();
     hold.swing_limit = fixed(30);
     hold.swing_limit_z = fixed(swing_limit_z);
     hold.twist_min = fixed(-20);
     hold.twist_max = fixed(35);
-    scene.join(hold, anchor, rod);
+    add_rod(scene, hold);
 }
 
 // Three bones on a ball joint and a hinge, thrown on the ground.
@@ -67,13 +62,10 @@ TEST_CASE("a rod against an ellipse is within 1e-5 m after ten seconds") {
 TEST_CASE("an arm that falls against the limit of a leaning hinge is within 5e-7 m after ten seconds") {
     for (const int substeps : {8, 20}) {
         RigidScene scene(with_substeps(substeps));
-        const std::size_t anchor = scene.add_anchor(fixed(0, 3, 0));
-        const std::size_t arm = scene.add(box_shape(0.5, 0.1, 0.05), at_rest(fixed(0.5, 3, 0)));
-        lks_joint_def def = joint(LKS_JOINT_HINGE, fixed(0, 0, 0), fixed(-0.5, 0, 0));
-        def.frame_a.rotation = def.frame_b.rotation = about(1, 0, 0, 60);
+        lks_joint_def def = joint(LKS_JOINT_HINGE, {}, {});
         def.twist_min = fixed(-40);
         def.twist_max = fixed(25);
-        scene.join(def, anchor, arm);
+        add_arm(scene, def, 30);
         check_run("hinge with limits" + substeps_name(substeps), scene, {5e-7, 1e-6, 100}, {5e-7, 1e-6, 100});
     }
 }

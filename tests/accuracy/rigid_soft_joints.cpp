@@ -1,37 +1,12 @@
 // How far bodies on joints that give way get from the same method in double precision, and float32 beside it.
 #include <doctest/doctest.h>
 
-#include "reference/rigid_bounds.h"
+#include "reference/rigid_scenes.h"
 
 using namespace support;
 using namespace reference;
 
 namespace {
-
-// Held at one end, level along x; the joint's axis leans by 30°.
-void add_arm(RigidScene& scene, lks_joint_def def) {
-    const std::size_t anchor = scene.add_anchor(fixed(0, 3, 0));
-    const std::size_t arm = scene.add(box_shape(0.5, 0.1, 0.05), at_rest(fixed(0.5, 3, 0)));
-    def.frame_b.position = fixed(-0.5, 0, 0);
-    def.frame_a.rotation = def.frame_b.rotation = about(1, 0, 0, 60);
-    scene.join(def, anchor, arm);
-}
-
-// Capsules of 20 cm, level, on an anchor.
-void add_chain(RigidScene& scene, int links, const lks_joint_def& odd, const lks_joint_def& even) {
-    std::size_t above = scene.add_anchor(fixed(0, 5, 0));
-    for (int i = 0; i < links; ++i) {
-        lks_body_def def = at_rest(fixed(0.1 + 0.2 * i, 5, 0));
-        def.transform.rotation = about(0, 0, 1, 90);
-        def.mass = fixed(1);
-        const std::size_t link = scene.add(capsule_shape(0.03, 0.08), def);
-        lks_joint_def hold = i % 2 == 0 ? even : odd;
-        hold.frame_a.position = fixed(0, i == 0 ? 0 : -0.1, 0);
-        hold.frame_b.position = fixed(0, 0.1, 0);
-        scene.join(hold, above, link);
-        above = link;
-    }
-}
 
 lks_joint_def soft_points(double compliance, double damping) {
     lks_joint_def def = lks_default_joint_def();
@@ -70,7 +45,7 @@ TEST_CASE("a chain of soft joints, and of soft and rigid ones in turn, is within
         }
         {
             RigidScene scene(with_substeps(substeps));
-            add_chain(scene, 6, soft_points(1.0 / 4096, 20), lks_default_joint_def());
+            add_chain(scene, 6, lks_default_joint_def(), soft_points(1.0 / 4096, 20));
             check("soft and rigid chain" + substeps_name(substeps), scene.run({second}).back(),
                   {5e-7, 8e-6, 500});
         }
@@ -85,7 +60,7 @@ TEST_CASE(
             lks_joint_def def = joint(LKS_JOINT_FIXED, {}, {});
             def.angular_compliance = fixed(1.0 / 256);
             def.angular_damping = fixed(damping);
-            add_arm(scene, def);
+            add_arm(scene, def, 30);
             check_run((damping == 0 ? "bending arm" : "damped bending arm") + substeps_name(substeps), scene,
                       {1e-6, 2e-6, 200}, {8e-6, 2e-5, 200});
         }
@@ -98,7 +73,7 @@ TEST_CASE("an arm on a soft and damped hinge is within 4e-6 m after ten seconds"
         lks_joint_def def = joint(LKS_JOINT_HINGE, {}, {});
         def.angular_compliance = fixed(1.0 / 1024);
         def.angular_damping = fixed(3);
-        add_arm(scene, def);
+        add_arm(scene, def, 30);
         check_run("soft hinge" + substeps_name(substeps), scene, {2e-6, 4e-6, 200}, {4e-6, 8e-6, 200});
     }
 }
@@ -106,18 +81,13 @@ TEST_CASE("an arm on a soft and damped hinge is within 4e-6 m after ten seconds"
 TEST_CASE("a rod against soft and damped limits is within 1e-6 m after a second, 8e-6 m after ten") {
     for (const int substeps : {8, 20}) {
         RigidScene scene(with_substeps(substeps));
-        const std::size_t anchor = scene.add_anchor(fixed(0, 3, 0));
-        lks_body_def def = at_rest(fixed(0, 2.5, 0));
-        def.angular_velocity = fixed(3, 2, 4);
-        def.velocity = fixed(2, 0, -1.5);
-        const std::size_t rod = scene.add(capsule_shape(0.1, 0.4), def);
-        lks_joint_def hold = joint(LKS_JOINT_BALL, fixed(0, 0, 0), fixed(0, 0.5, 0));
+        lks_joint_def hold = lks_default_joint_def();
         hold.swing_limit = fixed(20);
         hold.twist_min = fixed(-10);
         hold.twist_max = fixed(15);
         hold.limit_compliance = fixed(1.0 / 256);
         hold.limit_damping = fixed(3);
-        scene.join(hold, anchor, rod);
+        add_rod(scene, hold);
         check_run("soft limits" + substeps_name(substeps), scene, {1e-6, 5e-6, 200}, {8e-6, 2e-4, 200});
     }
 }

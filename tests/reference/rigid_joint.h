@@ -208,8 +208,6 @@ private:
         push_apart(body_a, body_b, push - before);
     }
 
-    // What hinges and fixed joints don't let turn: the sine between the axes, or twice the sine of half the
-    // angle between the frames.
     static Scalar size_of(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
     // In this substep, or at all.
     Vec turned_in(const Body& body_a, const Body& body_b, bool in_substep) const {
@@ -225,12 +223,18 @@ private:
         const Vec across = some * (1 / some.length());
         return {across, cross(u, across)};
     }
+    // From a's frame to b's, in a's.
+    Quat turn_between_frames(const Body& body_a, const Body& body_b) const {
+        return (body_a.orientation * frame_a_).conjugate() * (body_b.orientation * frame_b_);
+    }
+    // What hinges and fixed joints don't let turn: the sine between the axes, or twice the sine of half the
+    // angle between the frames.
     Vec turned_apart(const Body& body_a, const Body& body_b) const {
         if (kind_ == LKS_JOINT_HINGE) {
             return cross(hinge_axis(body_a), body_b.rotation * frame_b_.matrix().column(1));
         }
         if (kind_ == LKS_JOINT_FIXED) {
-            const Quat q = (body_a.orientation * frame_a_).conjugate() * (body_b.orientation * frame_b_);
+            const Quat q = turn_between_frames(body_a, body_b);
             const Vec sine = q.vector() * Scalar(q.w < 0 ? -2 : 2);
             return body_a.rotation * (frame_a_.matrix() * sine);
         }
@@ -246,12 +250,8 @@ private:
             const Scalar sine = across.length();
             return sine == 0 ? Vec{} : across * (std::atan2(sine, u.dot(v)) / sine);
         }
-        Quat q = (body_a.orientation * frame_a_).conjugate() * (body_b.orientation * frame_b_);
-        const Scalar sine = q.vector().length();
-        const Scalar angle = 2 * std::atan2(sine, std::abs(q.w));
-        return sine == 0
-                   ? Vec{}
-                   : body_a.rotation * (frame_a_.matrix() * q.vector()) * ((q.w < 0 ? -angle : angle) / sine);
+        const Quat q = turn_between_frames(body_a, body_b);
+        return body_a.rotation * (frame_a_.matrix() * q.vector()) * angle_by_vector(q);
     }
     Vec left_to_turn(const Body& body_a, const Body& body_b) const {
         return keeps_turn() ? turned_apart(body_a, body_b) - turn_start_

@@ -23,8 +23,7 @@ public:
           target_(quaternion_of<Scalar>(joint.motor.target)),
           motor_share_(1 / std::max(static_cast<Scalar>(joint.motor.response) * rate, Scalar(8))),
           most_(static_cast<Scalar>(motor_ ? joint.motor.max_torque : joint.friction) / (rate * rate)),
-          drags_(joint.angular_damping > 0),
-          drag_softness_(drags_ ? rate / static_cast<Scalar>(joint.angular_damping) : 0) {}
+          drag_softness_(joint.angular_damping > 0 ? rate / static_cast<Scalar>(joint.angular_damping) : 0) {}
 
     bool is_motor() const { return motor_; }
 
@@ -45,7 +44,7 @@ public:
     }
 
     void project(Body& a, Body& b) {
-        if (drags_) {
+        if (drag_softness_ > 0) {
             drag(a, b);
         }
         if (most_ > 0) {
@@ -68,12 +67,7 @@ private:
         if (hinge_) {
             q.x = q.z = 0;
         }
-        const Scalar sine = q.vector().length();
-        if (sine == 0) {
-            return {};
-        }
-        const Scalar angle = 2 * std::atan2(q.w < 0 ? -sine : sine, std::abs(q.w));
-        return a.rotation * (frame_a_.matrix() * q.vector()) * (angle / sine);
+        return a.rotation * (frame_a_.matrix() * q.vector()) * angle_by_vector(q);
     }
 
     // As much of it as friction, or the motor, is capable of.
@@ -116,11 +110,10 @@ private:
     Quat frame_a_, frame_b_;
     bool motor_;
     Quat target_;
-    Scalar motor_share_; // of what is missing, in a substep
-    Scalar most_;        // kg·m², of friction or the motor; 0: none
-    bool drags_;
-    Scalar drag_softness_;
-    Vec grip_; // kg·m², of friction or the motor: carried from substep to substep
+    Scalar motor_share_;   // of what is missing, in a substep
+    Scalar most_;          // kg·m², of friction or the motor; 0: none
+    Scalar drag_softness_; // 0: none
+    Vec grip_;             // kg·m², of friction or the motor: carried from substep to substep
     // Of the substep.
     Vec aim_;
     Vec drag_; // kg·m²

@@ -99,6 +99,13 @@ Quaternion<Scalar> quaternion_of(const Rotation& q) {
             static_cast<Scalar>(q.w)};
 }
 
+// Of the shorter way: what makes of a unit quaternion's vector the axis times the angle.
+template <typename Scalar>
+Scalar angle_by_vector(const Quaternion<Scalar>& q) {
+    const Scalar sine = q.vector().length();
+    return sine == 0 ? 0 : 2 * std::atan2(q.w < 0 ? -sine : sine, std::abs(q.w)) / sine;
+}
+
 // axis·tan(angle/2) from one to the other: the inverse of Cayley's map.
 template <typename Scalar>
 Vector3<Scalar> half_turn_between(const Quaternion<Scalar>& from, const Quaternion<Scalar>& to) {
