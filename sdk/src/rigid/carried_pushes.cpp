@@ -5,6 +5,7 @@
 #include "rigid/contact_search.h"
 #include "rigid/figures.h"
 #include "rigid/held_tree.h"
+#include "rigid/substep_motion.h"
 
 namespace lks {
 namespace {
@@ -13,40 +14,11 @@ using fixed::Int128;
 using fixed::UInt128;
 using fixed::Vec3;
 
-// Motions of a substep in six dimensions: metres of 26 fraction bits, up to 8 m. Turns are in the body's axes
-// and count at the body's unit of length (rigid/inertia.h).
-constexpr int motion_fraction_bits = 26;
-constexpr std::int64_t greatest_motion = std::int64_t{1} << (motion_fraction_bits + 3);
-
-struct Motion {
-    Vec3 shift;
-    Vec3 turn;
-};
-
-Vec3 limited(const Vec3& v) {
-    const auto part = [](std::int64_t c) { return std::clamp(c, -greatest_motion, greatest_motion); };
-    return {part(v.x), part(v.y), part(v.z)};
-}
-
-Vec3 to_motion(const Vec3& world) {
-    constexpr int down = world_fraction_bits - motion_fraction_bits;
-    return limited({world.x >> down, world.y >> down, world.z >> down});
-}
-
-// Half turns of so many fraction bits.
-Vec3 to_turn(const Body& body, const Vec3& half_turn, int fraction_bits) {
-    const int up = body.scale + 1 + motion_fraction_bits - fraction_bits;
-    const auto part = [up](std::int64_t c) {
-        return up >= 0 ? c * (std::int64_t{1} << up) : c >> std::min(-up, 63);
-    };
-    return limited({part(half_turn.x), part(half_turn.y), part(half_turn.z)});
-}
-
 Motion motion_since(const Body& body, const Vec3& position, const Quaternion& orientation) {
     const fixed::Rotation q =
         fixed::multiply(fixed::conjugate(narrow(orientation)), narrow(body.orientation));
     const Vec3 half_turn = q.w < 0 ? Vec3{-q.x, -q.y, -q.z} : Vec3{q.x, q.y, q.z};
-    return {to_motion(body.position - position), to_turn(body, half_turn, 30)};
+    return {to_motion(body.position - position), to_turn_motion(body, half_turn, 30)};
 }
 
 Motion motion_of_substep(const Body& body) {
@@ -60,14 +32,8 @@ Motion motion_by_pushes(const Body& body) {
 
 Motion motion_of_move(const Body& body, const Move& move) {
     return {to_motion(move.shift),
-            to_turn(body, fixed::rotate_transposed(body.rotation, move.half_turn), half_turn_fraction_bits)};
-}
-
-// Of one kilogram, 52 fraction bits.
-std::int64_t product(const SymmetricMatrix& inertia, const Motion& p, const Motion& q) {
-    const Vec3 turn = multiply(inertia, q.turn);
-    return p.shift.x * q.shift.x + p.shift.y * q.shift.y + p.shift.z * q.shift.z + p.turn.x * turn.x +
-           p.turn.y * turn.y + p.turn.z * turn.z;
+            to_turn_motion(body, fixed::rotate_transposed(body.rotation, move.half_turn),
+                           half_turn_fraction_bits)};
 }
 
 // How much of the pushes is to be added, 30 fraction bits: −G/Q.
@@ -86,7 +52,7 @@ std::int32_t missing_share(const Int128& g, const Int128& q) {
 class Figure {
 public:
     Figure(RigidScene& scene, const FigureRange& range)
-        : scene_(scene), range_(range), heaviest_(heaviest()) {}
+        : scene_(scene), range_(range), heaviest_(heaviest_of(scene, range)) {}
 
     std::int32_t share_to_add(std::int64_t least_motion) {
         for_each(Part::body, [this](std::uint32_t i) { add_body(i); });
@@ -153,18 +119,6 @@ private:
         return scene_.figures[scene_.figures[key.body_a] == figure() ? key.other : key.body_a];
     }
 
-    const InverseMass& heaviest() const {
-        const InverseMass* best = &scene_.bodies[index_of(first_part())].inverse_mass;
-        for_each(Part::body, [&](std::uint32_t i) {
-            const InverseMass& other = scene_.bodies[i].inverse_mass;
-            best = heavier(other, *best) ? &other : best;
-        });
-        return *best;
-    }
-
-    // In the heaviest one's, 30 fraction bits; at most one.
-    std::int32_t mass_of(const Body& body) const { return pair_shares(heaviest_, body.inverse_mass).a; }
-
     void add_products(std::uint32_t index, std::int32_t mass, const Motion& by_pushes, const Motion& motion) {
         const SymmetricMatrix& inertia = scene_.descriptions[index].properties.inertia;
         g_ = g_ + fixed::multiply_signed(product(inertia, by_pushes, motion), mass);
@@ -173,7 +127,7 @@ private:
 
     void add_body(std::uint32_t index) {
         const Body& body = scene_.bodies[index];
-        const std::int32_t mass = mass_of(body);
+        const std::int32_t mass = mass_in(heaviest_, body);
         mass_ += static_cast<std::uint64_t>(mass);
         add_products(index, mass, motion_by_pushes(body), motion_of_substep(body));
     }
@@ -187,7 +141,8 @@ private:
             if (a != UINT32_MAX) {
                 const std::uint32_t neighbour = scene_.figures[a] == figure() ? other : a;
                 const Body& body = scene_.bodies[neighbour];
-                add_products(neighbour, mass_of(body), motion_of_move(body, move), motion_of_substep(body));
+                add_products(neighbour, mass_in(heaviest_, body), motion_of_move(body, move),
+                             motion_of_substep(body));
             }
         };
         for_each(Part::shared_contact, [&](std::uint32_t i) {
@@ -211,7 +166,7 @@ private:
         const Motion expected = motion_of_move(body, move_of(body, attachment.side, attachment.expected, 1));
         g_ = g_ + fixed::multiply_signed(product(scene_.descriptions[index].properties.inertia,
                                                  motion_by_pushes(body), expected),
-                                         mass_of(body));
+                                         mass_in(heaviest_, body));
     }
 
     RigidScene& scene_;

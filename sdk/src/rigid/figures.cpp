@@ -81,4 +81,13 @@ void find_figures(RigidScene& scene) {
     find_ranges(scene);
 }
 
+const InverseMass& heaviest_of(const RigidScene& scene, const FigureRange& figure) {
+    const InverseMass* best = &scene.bodies[index_of(scene.figure_parts[figure.begin()])].inverse_mass;
+    for_each_part(scene, figure, Part::body, [&](std::uint32_t i) {
+        const InverseMass& other = scene.bodies[i].inverse_mass;
+        best = heavier(other, *best) ? &other : best;
+    });
+    return *best;
+}
+
 } // namespace lks

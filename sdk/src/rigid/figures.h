@@ -2,12 +2,20 @@
 // and nothing else in a substep, work on two of them.
 #pragma once
 
+#include "rigid/pair.h"
 #include "rigid/rigid_scene.h"
 
 namespace lks {
 
 // Of what is awake in this tick, in the order of the least bodies. After find_articulations.
 void find_figures(RigidScene& scene);
+
+// The inverse mass of its heaviest body, and the mass of another one in that one's: 30 fraction bits, at most
+// one.
+const InverseMass& heaviest_of(const RigidScene& scene, const FigureRange& figure);
+inline std::int32_t mass_in(const InverseMass& heaviest, const Body& body) {
+    return pair_shares(heaviest, body.inverse_mass).a;
+}
 
 // Calls use(index) for each of its parts of one kind.
 template <typename Use>
