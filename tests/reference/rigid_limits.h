@@ -33,7 +33,11 @@ public:
     // Before the prediction: how far they let turn.
     void begin(const Body& a, const Body& b) {
         Swing swing;
-        swing_start_ = swings_ && find_swing(a, b, swing) ? swing.angle : Scalar(0);
+        swing_start_ = 0;
+        if (swings_ && find_swing(a, b, swing)) {
+            swing_start_ = swing.angle;
+            swing_axis_ = swing.axis;
+        }
         twist_least_ = twist_min_;
         twist_most_ = twist_max_;
         Scalar twist = 0;
@@ -54,10 +58,10 @@ public:
     Vec pushed(const Body& a, const Body& b) const {
         Vec sum;
         Swing swing;
-        if (swing_push_ != 0 && find_swing(a, b, swing)) {
+        if (swing_push_ != 0 && find_pushed_swing(a, b, swing)) {
             sum = swing.axis * -swing_push_;
         }
-        return twist_push_ != 0 ? sum + twist_axis(a, b) * twist_push_ : sum;
+        return twist_push_ != 0 ? sum + find_twist_axis(a, b).axis * twist_push_ : sum;
     }
     void carry_more(Body& a, Body& b, Scalar share) {
         push(a, b, swing_push_ * share, twist_push_ * share);
@@ -89,7 +93,8 @@ public:
         }
         Scalar twist = 0;
         if (twists_ && find_twist(a, b, twist)) {
-            beyond = std::max({beyond, twist - twist_most_, twist_least_ - twist});
+            beyond = std::max(beyond, std::max(twist - twist_most_, twist_least_ - twist) *
+                                          find_twist_axis(a, b).share);
         }
         return beyond;
     }
@@ -106,7 +111,8 @@ public:
         }
         Scalar twist = 0;
         if (twists_ && find_twist(a, b, twist)) {
-            worst = std::max({worst, twist - twist_max_, twist_min_ - twist});
+            worst = std::max(worst,
+                             std::max(twist - twist_max_, twist_min_ - twist) * find_twist_axis(a, b).share);
         }
         return worst;
     }
@@ -117,7 +123,11 @@ public:
             return;
         }
         if (swings_) {
-            const Swing swing = measure_swing(a, b);
+            Swing swing = measure_swing(a, b);
+            if (in_substep) {
+                turn_to_push(swing);
+                swing_axis_ = swing.axis;
+            }
             const Scalar limit = in_substep ? std::max(swing.limit, swing_start_) : swing.limit;
             rows.push_back({swing.axis * Scalar(-1), limit - swing.angle, in_substep ? swing_push_ : 0,
                             &swing_push_, 1});
@@ -125,12 +135,12 @@ public:
         if (twists_) {
             const Scalar twist = measure_twist(a, b);
             const Scalar push = in_substep ? twist_push_ : 0;
-            const Scalar to_most = (in_substep ? twist_most_ : twist_max_) - twist;
-            const Scalar to_least = twist - (in_substep ? twist_least_ : twist_min_);
+            const TwistAxis about = find_twist_axis(a, b);
+            const Scalar to_most = ((in_substep ? twist_most_ : twist_max_) - twist) * about.share;
+            const Scalar to_least = (twist - (in_substep ? twist_least_ : twist_min_)) * about.share;
             const bool most = push < 0 || (push == 0 && to_most < to_least);
             const Scalar sign = most ? -1 : 1;
-            rows.push_back(
-                {twist_axis(a, b) * sign, most ? to_most : to_least, push * sign, &twist_push_, sign});
+            rows.push_back({about.axis * sign, most ? to_most : to_least, push * sign, &twist_push_, sign});
         }
     }
 
@@ -148,10 +158,10 @@ public:
         }
         Scalar twist = 0;
         if (twists_ && find_twist(a, b, twist)) {
-            const Scalar back = std::clamp(twist, twist_min_, twist_max_) - twist;
-            const Vec axis = twist_axis(a, b);
+            const TwistAxis about = find_twist_axis(a, b);
+            const Scalar back = (std::clamp(twist, twist_min_, twist_max_) - twist) * about.share;
             beyond = std::max(beyond, std::abs(back));
-            turn(a, b, axis, push_for(a, b, axis, back * more));
+            turn(a, b, about.axis, push_for(a, b, about.axis, back * more));
         }
         return beyond > Scalar(1) / 115;
     }
@@ -184,6 +194,19 @@ private:
         return swing.angle > std::min(limit_x_, limit_z_) || swing_push_ != 0;
     }
 
+    // What has been turned back past the middle in this substep has swung by less than nothing.
+    void turn_to_push(Swing& swing) const {
+        if (swing_push_ != 0 && swing.axis.dot(swing_axis_) < 0) {
+            swing.axis = swing.axis * Scalar(-1);
+            swing.angle = -swing.angle;
+        }
+    }
+    bool find_pushed_swing(const Body& a, const Body& b, Swing& swing) const {
+        const bool found = find_swing(a, b, swing);
+        turn_to_push(swing);
+        return found;
+    }
+
     // On the ellipse: (cos φ/limit_x, sin φ/limit_z) has length 1/limit.
     Scalar swing_limit(const Body& a, const Vec& v) const {
         if (limit_x_ == limit_z_) {
@@ -207,10 +230,16 @@ private:
         return twist < twist_min_ || twist > twist_max_ || twist_push_ != 0;
     }
 
-    // About the middle of both axes.
-    Vec twist_axis(const Body& a, const Body& b) const {
+    // The middle of both axes, and how much of a twist is to be turned about it: all, but beyond 110 degrees
+    // of swing no more than one and three quarters of what it takes.
+    struct TwistAxis {
+        Vec axis;
+        Scalar share;
+    };
+    TwistAxis find_twist_axis(const Body& a, const Body& b) const {
         const Vec sum = axis_a(a) + axis_b(b);
-        return sum * (1 / sum.length());
+        const Scalar length = sum.length();
+        return {sum * (1 / length), std::min(length * Scalar(0.875), Scalar(1))};
     }
 
     // By how much it is beyond its limit, was when the substep began, and what has been pushed against that.
@@ -220,9 +249,10 @@ private:
 
     void hold_swing(Body& a, Body& b) {
         Swing swing;
-        if (!find_swing(a, b, swing)) {
+        if (!find_pushed_swing(a, b, swing)) {
             return;
         }
+        swing_axis_ = swing.axis;
         const Scalar start = std::max(swing_start_ - swing.limit, Scalar(0));
         const Scalar back = to_turn_back(swing.angle - swing.limit, start, swing_push_);
         const Scalar wanted = std::max(swing_push_ + push_for(a, b, swing.axis, back), Scalar(0));
@@ -236,26 +266,29 @@ private:
         if (!find_twist(a, b, twist)) {
             return;
         }
-        const Vec axis = twist_axis(a, b);
-        const Scalar before = twist_push_;
         const bool soft = softness_.is_soft();
+        const TwistAxis about = find_twist_axis(a, b);
+        const auto push_back = [&](Scalar back) {
+            return push_for(a, b, about.axis, soft ? back : back * about.share);
+        };
+        const Scalar before = twist_push_;
         if (twist > (soft ? twist_max_ : twist_most_) || before < 0) {
             const Scalar back = to_turn_back(twist - twist_max_, twist_most_ - twist_max_, -before);
-            twist_push_ = std::min(before - push_for(a, b, axis, back), Scalar(0));
+            twist_push_ = std::min(before - push_back(back), Scalar(0));
         } else if (twist < (soft ? twist_min_ : twist_least_) || before > 0) {
             const Scalar back = to_turn_back(twist_min_ - twist, twist_min_ - twist_least_, before);
-            twist_push_ = std::max(before + push_for(a, b, axis, back), Scalar(0));
+            twist_push_ = std::max(before + push_back(back), Scalar(0));
         }
-        turn(a, b, axis, twist_push_ - before);
+        turn(a, b, about.axis, twist_push_ - before);
     }
 
     void push(Body& a, Body& b, Scalar swing_push, Scalar twist_push) const {
         Swing swing;
-        if (swing_push != 0 && find_swing(a, b, swing)) {
+        if (swing_push != 0 && find_pushed_swing(a, b, swing)) {
             turn(a, b, swing.axis, -swing_push);
         }
         if (twist_push != 0) {
-            turn(a, b, twist_axis(a, b), twist_push);
+            turn(a, b, find_twist_axis(a, b).axis, twist_push);
         }
     }
 
@@ -275,6 +308,7 @@ private:
     Scalar swing_push_ = 0, twist_push_ = 0;
     // Of the substep.
     Scalar swing_start_ = 0, twist_least_ = 0, twist_most_ = 0;
+    Vec swing_axis_; // about which b has swung where its limit pushes
 };
 
 } // namespace reference

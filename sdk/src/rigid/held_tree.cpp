@@ -401,13 +401,13 @@ private:
         add_tree_push(joint, multiply_32(part.pair_share, part.child_is_a ? -push : push));
         for (std::uint32_t i = 0; i < held.row_count; ++i) {
             if (!held.pushes[i]) {
-                set_limit_push(joint, held.rows[i].kind, 0);
+                set_limit_push(joint, held.rows[i], 0);
             }
         }
         for_each_pushing(held, [&](int row, std::uint32_t i) {
             const std::int64_t more = joint_push(part, joint, held.push[row]);
             if (held.rows[i].is_limit()) {
-                set_limit_push(joint, held.rows[i].kind,
+                set_limit_push(joint, held.rows[i],
                                std::clamp<std::int64_t>(held.rows[i].push + more, 0, greatest_push));
             } else {
                 joint.turn = joint.turn + fixed::scale(held.rows[i].axis, more);

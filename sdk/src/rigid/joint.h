@@ -123,12 +123,13 @@ struct Joint : JointState {
     bool in_held_tree; // and what it turns is, where a tree is held (rigid/held_tree.h)
 
     // Of the substep.
-    std::int64_t tension;     // how much it pushed in the one before, or since: World
-    fixed::Vec3 begin;        // how far the points were apart at its beginning
-    fixed::Vec3 start;        // what of it is to be kept
-    fixed::Vec3 turn_start;   // how far a hinge's or a fixed joint's frames are turned at its beginning
-    fixed::Vec3 drag;         // what angular damping turned
-    std::int64_t swing_start; // how far limits let turn in this substep: World, radians
+    std::int64_t tension;        // how much it pushed in the one before, or since: World
+    fixed::Vec3 begin;           // how far the points were apart at its beginning
+    fixed::Vec3 start;           // what of it is to be kept
+    fixed::Vec3 turn_start;      // how far a hinge's or a fixed joint's frames are turned at its beginning
+    fixed::Vec3 drag;            // what angular damping turned
+    fixed::Direction swing_axis; // about which b has swung where its limit pushes
+    std::int64_t swing_start;    // how far limits let turn in this substep: World, radians
     std::int64_t twist_least;
     std::int64_t twist_most;
     fixed::Vec3 aim; // what the motor is to turn: half turns, Turn

@@ -50,6 +50,15 @@ Swing measure_swing(const Joint& joint, const Body& a, const Body& b) {
     return {way.direction, fixed::angle_of(way.length, fixed::dot(u, v)), swing_limit(joint.constants, a, v)};
 }
 
+// As what has pushed in this substep knows it: what has been turned back past the middle, which a narrow cone
+// lets it in a substep, has swung by less than nothing. So a push is taken back before the other side pushes.
+void turn_to_push(const Joint& joint, Swing& swing) {
+    if (joint.swing_push != 0 && fixed::dot(swing.axis, joint.swing_axis) < 0) {
+        swing.axis = -swing.axis;
+        swing.angle = -swing.angle;
+    }
+}
+
 // False: certainly within the limit.
 bool find_swing(const Joint& joint, const Body& a, const Body& b, Swing& swing) {
     const auto [u, v] = axes_of(joint, a, b);
@@ -57,6 +66,14 @@ bool find_swing(const Joint& joint, const Body& a, const Body& b, Swing& swing) 
         return false;
     }
     swing = measure_swing(joint, a, b);
+    return true;
+}
+
+bool find_pushed_swing(const Joint& joint, const Body& a, const Body& b, Swing& swing) {
+    if (!find_swing(joint, a, b, swing)) {
+        return false;
+    }
+    turn_to_push(joint, swing);
     return true;
 }
 
@@ -72,9 +89,10 @@ std::int64_t to_turn_back(const Joint& joint, std::int64_t beyond, std::int64_t 
 
 void hold_swing(Joint& joint, Body& a, Body& b) {
     Swing swing{};
-    if (!find_swing(joint, a, b, swing)) {
+    if (!find_pushed_swing(joint, a, b, swing)) {
         return;
     }
+    joint.swing_axis = swing.axis;
     const TurnRow row(joint, a, b, swing.axis, joint.constants.limits.softness);
     const std::int64_t start = std::max<std::int64_t>(joint.swing_start - swing.limit, 0);
     const std::int64_t beyond = to_turn_back(joint, swing.angle - swing.limit, start, joint.swing_push);
@@ -129,24 +147,42 @@ AllowedTwist allowed_twist(const Joint& joint, bool in_substep) {
                       : AllowedTwist{joint.constants.twist_max, joint.constants.twist_min};
 }
 
-// About the middle of both axes.
-bool twist_axis(const Joint& joint, const Body& a, const Body& b, Direction& axis) {
+// What turns b about the middle of both axes twists it by more, the further it has swung: by one over the
+// cosine of half the swing, which goes to infinity. To turn the whole twist would turn it ever further to the
+// other side from 120 degrees on. So beyond 110 degrees it is turned by less: at most one and three quarters
+// of what it takes.
+struct TwistAxis {
+    Direction axis;
+    std::int32_t share; // 30 fraction bits
+
+    // What of a twist is to be turned.
+    std::int64_t turn_for(std::int64_t twist) const {
+        return share == direction_one ? twist : fixed::scale_component(share, twist);
+    }
+};
+
+bool find_twist_axis(const Joint& joint, const Body& a, const Body& b, TwistAxis& about) {
     const auto [u, v] = axes_of(joint, a, b);
     fixed::NormalisedVector way{};
     const bool any = fixed::normalise(
         Vec3{std::int64_t{u.x} + v.x, std::int64_t{u.y} + v.y, std::int64_t{u.z} + v.z}, way);
-    axis = way.direction;
+    // Its length is twice the cosine.
+    about = {way.direction,
+             static_cast<std::int32_t>(std::min<std::int64_t>(way.length / 8 * 7, direction_one))};
     return any;
 }
 
 void hold_twist(Joint& joint, Body& a, Body& b) {
     std::int64_t twist = 0;
-    Direction axis{};
-    if (!find_twist(joint, a, b, twist) || !twist_axis(joint, a, b, axis)) {
+    TwistAxis about{};
+    if (!find_twist(joint, a, b, twist) || !find_twist_axis(joint, a, b, about)) {
         return;
     }
     const JointConstants& c = joint.constants;
-    const TurnRow row(joint, a, b, axis, c.limits.softness);
+    const TurnRow row(joint, a, b, about.axis, c.limits.softness);
+    const auto push_for = [&](std::int64_t back) {
+        return row.push_for(are_soft(joint) ? back : about.turn_for(back));
+    };
     const std::int64_t before = joint.twist_push;
     const std::int64_t most = are_soft(joint) ? c.twist_max : joint.twist_most;
     const std::int64_t least = are_soft(joint) ? c.twist_min : joint.twist_least;
@@ -154,23 +190,23 @@ void hold_twist(Joint& joint, Body& a, Body& b) {
     if (twist > most || before < 0) {
         const std::int64_t back =
             to_turn_back(joint, twist - c.twist_max, joint.twist_most - c.twist_max, -before);
-        joint.twist_push = std::clamp<std::int64_t>(before + row.push_for(-back), -greatest_push, 0);
+        joint.twist_push = std::clamp<std::int64_t>(before + push_for(-back), -greatest_push, 0);
     } else if (twist < least || before > 0) {
         const std::int64_t back =
             to_turn_back(joint, c.twist_min - twist, c.twist_min - joint.twist_least, before);
-        joint.twist_push = std::clamp<std::int64_t>(before + row.push_for(back), 0, greatest_push);
+        joint.twist_push = std::clamp<std::int64_t>(before + push_for(back), 0, greatest_push);
     }
     row.apply(joint.twist_push - before);
 }
 
 void push_limits(const Joint& joint, Body& a, Body& b, std::int64_t swing_push, std::int64_t twist_push) {
     Swing swing{};
-    if (swing_push != 0 && find_swing(joint, a, b, swing)) {
+    if (swing_push != 0 && find_pushed_swing(joint, a, b, swing)) {
         TurnRow(joint, a, b, swing.axis).apply(-swing_push);
     }
-    Direction axis{};
-    if (twist_push != 0 && twist_axis(joint, a, b, axis)) {
-        TurnRow(joint, a, b, axis).apply(twist_push);
+    TwistAxis about{};
+    if (twist_push != 0 && find_twist_axis(joint, a, b, about)) {
+        TurnRow(joint, a, b, about.axis).apply(twist_push);
     }
 }
 
@@ -179,7 +215,11 @@ void push_limits(const Joint& joint, Body& a, Body& b, std::int64_t swing_push, 
 void begin_limits(Joint& joint, const Body& a, const Body& b) {
     const JointConstants& c = joint.constants;
     Swing swing{};
-    joint.swing_start = c.swing_limited && find_swing(joint, a, b, swing) ? swing.angle : 0;
+    joint.swing_start = 0;
+    if (c.swing_limited && find_swing(joint, a, b, swing)) {
+        joint.swing_start = swing.angle;
+        joint.swing_axis = swing.axis;
+    }
     joint.twist_least = c.twist_min;
     joint.twist_most = c.twist_max;
     std::int64_t twist = 0;
@@ -225,12 +265,12 @@ void project_limits(Joint& joint, Body& a, Body& b) {
 Vec3 limit_push(const Joint& joint, const Body& a, const Body& b) {
     Vec3 pushed{0, 0, 0};
     Swing swing{};
-    if (joint.swing_push != 0 && find_swing(joint, a, b, swing)) {
+    if (joint.swing_push != 0 && find_pushed_swing(joint, a, b, swing)) {
         pushed = -fixed::scale(swing.axis, joint.swing_push);
     }
-    Direction axis{};
-    if (joint.twist_push != 0 && twist_axis(joint, a, b, axis)) {
-        pushed = pushed + fixed::scale(axis, joint.twist_push);
+    TwistAxis about{};
+    if (joint.twist_push != 0 && find_twist_axis(joint, a, b, about)) {
+        pushed = pushed + fixed::scale(about.axis, joint.twist_push);
     }
     return pushed;
 }
@@ -245,9 +285,11 @@ std::int64_t exceeded_limits(const Joint& joint, const Body& a, const Body& b, b
         beyond = swing.angle - allowed_swing(joint, swing, in_substep);
     }
     std::int64_t twist = 0;
-    if (joint.constants.twist_limited && find_twist(joint, a, b, twist)) {
+    TwistAxis about{};
+    if (joint.constants.twist_limited && find_twist(joint, a, b, twist) &&
+        find_twist_axis(joint, a, b, about)) {
         const AllowedTwist allowed = allowed_twist(joint, in_substep);
-        beyond = std::max({beyond, twist - allowed.most, allowed.least - twist});
+        beyond = std::max(beyond, about.turn_for(std::max(twist - allowed.most, allowed.least - twist)));
     }
     return beyond;
 }
@@ -267,12 +309,12 @@ bool undo_limits(const Joint& joint, Body& a, Body& b) {
         TurnRow(joint, a, b, swing.axis).turn_by(-more(beyond));
     }
     std::int64_t twist = 0;
-    Direction axis{};
-    if (c.twist_limited && find_twist(joint, a, b, twist) && twist_axis(joint, a, b, axis)) {
-        const std::int64_t back = std::clamp(twist, c.twist_min, c.twist_max) - twist;
+    TwistAxis about{};
+    if (c.twist_limited && find_twist(joint, a, b, twist) && find_twist_axis(joint, a, b, about)) {
+        const std::int64_t back = about.turn_for(std::clamp(twist, c.twist_min, c.twist_max) - twist);
         if (back != 0) {
             beyond = std::max(beyond, back < 0 ? -back : back);
-            TurnRow(joint, a, b, axis).turn_by(more(back));
+            TurnRow(joint, a, b, about.axis).turn_by(more(back));
         }
     }
     return beyond > far_beyond;
@@ -285,32 +327,36 @@ std::uint32_t limit_rows(const Joint& joint, const Body& a, const Body& b, bool 
     }
     const JointConstants& c = joint.constants;
     if (c.swing_limited) {
-        const Swing swing = measure_swing(joint, a, b);
+        Swing swing = measure_swing(joint, a, b);
+        if (in_substep) {
+            turn_to_push(joint, swing);
+        }
         rows[count++] = {HeldRow::Kind::swing, -swing.axis,
                          allowed_swing(joint, swing, in_substep) - swing.angle,
                          in_substep ? joint.swing_push : 0};
     }
     std::int64_t twist = 0;
-    Direction axis{};
-    if (c.twist_limited && measure_twist(joint, a, b, twist) && twist_axis(joint, a, b, axis)) {
+    TwistAxis about{};
+    if (c.twist_limited && measure_twist(joint, a, b, twist) && find_twist_axis(joint, a, b, about)) {
         const std::int64_t push = in_substep ? joint.twist_push : 0;
         const AllowedTwist allowed = allowed_twist(joint, in_substep);
-        const std::int64_t to_most = allowed.most - twist;
-        const std::int64_t to_least = twist - allowed.least;
+        const std::int64_t to_most = about.turn_for(allowed.most - twist);
+        const std::int64_t to_least = about.turn_for(twist - allowed.least);
         if (push < 0 || (push == 0 && to_most < to_least)) {
-            rows[count++] = {HeldRow::Kind::most_twist, -axis, to_most, -push};
+            rows[count++] = {HeldRow::Kind::most_twist, -about.axis, to_most, -push};
         } else {
-            rows[count++] = {HeldRow::Kind::least_twist, axis, to_least, push};
+            rows[count++] = {HeldRow::Kind::least_twist, about.axis, to_least, push};
         }
     }
     return count;
 }
 
-void set_limit_push(Joint& joint, HeldRow::Kind kind, std::int64_t push) {
-    if (kind == HeldRow::Kind::swing) {
+void set_limit_push(Joint& joint, const HeldRow& row, std::int64_t push) {
+    if (row.kind == HeldRow::Kind::swing) {
         joint.swing_push = push;
+        joint.swing_axis = -row.axis;
     } else {
-        joint.twist_push = kind == HeldRow::Kind::most_twist ? -push : push;
+        joint.twist_push = row.kind == HeldRow::Kind::most_twist ? -push : push;
     }
 }
 

@@ -33,6 +33,6 @@ bool undo_limits(const Joint& joint, Body& a, Body& b);
 std::uint32_t limit_rows(const Joint& joint, const Body& a, const Body& b, bool in_substep,
                          HeldRow (&rows)[most_held_rows], std::uint32_t count);
 // What such a row has pushed now; not less than zero.
-void set_limit_push(Joint& joint, HeldRow::Kind kind, std::int64_t push);
+void set_limit_push(Joint& joint, const HeldRow& row, std::int64_t push);
 
 } // namespace lks
