@@ -7,18 +7,11 @@
 #include <vector>
 
 #include "support/bodies.h"
+#include "support/hanging_figure.h"
 
 using namespace support;
 
 namespace {
-
-// So far on a circle of a metre that begins at `start`.
-lks_transform on_circle(const lks_transform& start, double radians) {
-    lks_transform to = start;
-    to.position.x += fixed(std::sin(radians));
-    to.position.z += fixed(1 - std::cos(radians));
-    return to;
-}
 
 // A figure of lockstitch/ragdoll.h high above everything, its bones thrown all ways, but one that is led.
 template <typename Ready>
@@ -77,57 +70,6 @@ private:
     double beyond_ = 0;
     double kinetic_ = 0;
     double gained_ = 0;
-};
-
-// A humanoid over the ground, one of its bones on a ball joint of a kinematic body.
-class HangingFigure {
-public:
-    HangingFigure(World& world, int bone, const lks_rotation& turned) : world_(world) {
-        add_ground(world);
-        humanoid_.def.transform = {fixed(0, 1.5, 0), turned};
-        REQUIRE(humanoid_.add(world, bodies_, joints_) == LKS_OK);
-        const Vector place = state_of(world, bodies_[bone]).position;
-        lks_joint_def def = lks_default_joint_def();
-        def.kind = LKS_JOINT_BALL;
-        anchor_ = add_anchor(world, fixed(place.x, place.y, place.z));
-        hold_ = add_joint(world, def, anchor_, bodies_[bone]);
-        REQUIRE(lks_body_transform(world, anchor_, &start_) == LKS_OK);
-    }
-
-    // On a circle of a metre, for so many ticks; then it stops dead.
-    void lead(double speed, int ticks) {
-        for (int tick = 0; tick < ticks; ++tick) {
-            REQUIRE(lks_body_move_to(world_, anchor_, on_circle(start_, speed * tick / 60)) == LKS_OK);
-            world_.step();
-        }
-        least_ = whole_energy(world_, bodies_, LKS_HUMANOID_BONES);
-    }
-
-    void step() {
-        world_.step();
-        for (const lks_joint_id joint : joints_) {
-            apart_ = std::max(apart_, error_of(world_, joint));
-        }
-        apart_ = std::max(apart_, error_of(world_, hold_));
-        const double energy = whole_energy(world_, bodies_, LKS_HUMANOID_BONES);
-        rise_ = std::max(rise_, energy - least_);
-        least_ = std::min(least_, energy);
-    }
-
-    double apart() const { return apart_; } // m
-    double rise() const { return rise_; }   // J, above the least before
-
-private:
-    World& world_;
-    Humanoid humanoid_;
-    lks_body_id bodies_[LKS_HUMANOID_BONES]{};
-    lks_joint_id joints_[LKS_HUMANOID_BONES - 1]{};
-    lks_body_id anchor_{};
-    lks_joint_id hold_{};
-    lks_transform start_{};
-    double apart_ = 0;
-    double rise_ = 0;
-    double least_ = 1e9;
 };
 
 struct Bounds {
@@ -204,29 +146,4 @@ TEST_CASE("a figure that hangs by any of its bones, turned any way, gains little
         CHECK(apart < 3e-3);
         CHECK(most < 60); // of 1 to 2 kJ: what parts lifts what lies upon it
     }
-}
-
-// What pulls many times as hard in a substep as in the one before must turn light bones as heavily as that.
-// Where it does not, up to a hundred times the energy comes of nothing.
-TEST_CASE("a figure that is led by a hand which stops dead stays within what it has") {
-    double most = 0;
-    double apart = 0;
-    int risen = 0;
-    for (const int hand : {LKS_HUMANOID_HAND_LEFT, LKS_HUMANOID_HAND_RIGHT}) {
-        for (int ticks = 150; ticks < 350; ticks += 8) {
-            World world(world_def(60, 4));
-            HangingFigure hanging(world, hand, about(0, 1, 0, 0));
-            hanging.lead(6, ticks);
-            for (int tick = 0; tick < 60; ++tick) {
-                hanging.step();
-            }
-            most = std::max(most, hanging.rise());
-            apart = std::max(apart, hanging.apart());
-            risen += hanging.rise() > 20 ? 1 : 0;
-        }
-    }
-    MESSAGE("stopped dead: " << most << " J gained at the most, in " << risen << " of 50 at all, "
-                             << 1e3 * apart << " mm apart");
-    CHECK(most < 5e3); // of 4 to 9.5 kJ; without it 1.7 MJ
-    CHECK(apart < 15e-3);
 }

@@ -7,6 +7,7 @@
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"
 #include "rigid/figures.h"
+#include "rigid/held_energy.h"
 #include "rigid/held_tree.h"
 #include "rigid/joint_limits.h"
 #include "rigid/joint_turns.h"
@@ -393,7 +394,13 @@ bool RigidSubstep::are_strained(const Contact& shared) const {
 // else, has some iterations more.
 void RigidSubstep::relieve_strained() {
     constexpr int most_rounds = 16;
+    for (FigureRange& figure : scene_.figure_ranges) {
+        figure.relieved = false;
+    }
     for (int round = 0; round < most_rounds && find_strained(); ++round) {
+        for (FigureRange& figure : scene_.figure_ranges) {
+            figure.relieved = figure.relieved || is_strained(figure);
+        }
         in_strained([this](const FigureRange& figure, const FigureBundle& bundle, std::uint32_t number) {
             if (bundle.is_wide()) {
                 hand_out_factors(scene_, bundle, number);
@@ -452,6 +459,11 @@ void RigidSubstep::finish() {
         if (scene_.bodies[i].is_awake()) {
             finish_body(scene_.bodies[i], scene_.descriptions[i], rate_,
                         world_.scratch[worker].counters.speed_clamps);
+        }
+    });
+    in_figures([this](const FigureRange& figure) {
+        if (figure.is_held && figure.relieved) {
+            take_out_gain(scene_, figure, rate_);
         }
     });
     if (world_.event_log.wants_contacts()) {
