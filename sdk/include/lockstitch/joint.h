@@ -4,7 +4,8 @@
  * frames fall together where the joint is at rest. Angles are degrees.
  *
  *   ball      the points stay together; the axes swing apart by at most swing_limit (a cone), and b is
- *             twisted against a about its axis from twist_min to twist_max
+ *             twisted against a about its axis from twist_min to twist_max (near 180 degrees of swing, where
+ *             a twist means nothing, its limits give way)
  *   hinge     the points and the axes stay together; b turns against a from twist_min to twist_max
  *   fixed     nothing moves
  *   distance  the points stay from distance_min to distance_max apart
