@@ -16,12 +16,6 @@ std::int64_t divide_rounded(std::int64_t a, std::int64_t n) {
     return (a >= 0 ? a + n / 2 : a - n / 2) / n;
 }
 
-// World rad/s to the half turn of a substep.
-Vec3 to_half_turn(const Vec3& spin, const MotionRate& rate) {
-    const auto part = [&](std::int64_t c) { return fixed::multiply_shift(c, rate.half_turn_factor, 40); };
-    return {part(spin.x), part(spin.y), part(spin.z)};
-}
-
 Vec3 to_spin(const Vec3& half_turn, const MotionRate& rate) {
     const auto part = [&](std::int64_t c) { return fixed::multiply_shift(c, rate.substeps_per_second, 19); };
     return {part(half_turn.x), part(half_turn.y), part(half_turn.z)};
@@ -105,6 +99,11 @@ std::int64_t body_speed_limit(const StepRate& rate) {
 std::int64_t body_spin_limit(const StepRate& rate) {
     const auto n = static_cast<std::int64_t>(rate.substeps_per_second);
     return std::min<std::int64_t>(1000, n) << world_fraction_bits;
+}
+
+Vec3 to_half_turn(const Vec3& spin, const MotionRate& rate) {
+    const auto part = [&](std::int64_t c) { return fixed::multiply_shift(c, rate.half_turn_factor, 40); };
+    return {part(spin.x), part(spin.y), part(spin.z)};
 }
 
 std::int64_t spin_speed(const Body& body, std::int64_t radius) {

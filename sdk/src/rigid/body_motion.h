@@ -52,6 +52,22 @@ void finish_body(Body& body, const BodyDescription& description, const MotionRat
 std::int64_t spin_speed(const Body& body, std::int64_t radius);
 std::int64_t greatest_speed(const Body& body, std::int64_t radius);
 
+// World rad/s to the half turn of a substep, Turn.
+fixed::Vec3 to_half_turn(const fixed::Vec3& spin, const MotionRate& rate);
+
+// Of a body's point at a lever from its centre of mass, World m/s; by the spin within a million m/s an axis.
+inline fixed::Vec3 velocity_at(const Body& body, const fixed::Vec3& lever) {
+    // Spins to 22 bits behind the point and levers to 24: far out on a plane they are very long.
+    const auto m = [](std::int64_t spin, std::int64_t arm) {
+        constexpr std::int64_t most = std::int64_t{1} << (world_fraction_bits + 19);
+        return std::clamp(fixed::saturate_to_int64(fixed::multiply_signed(spin >> 18, arm >> 16) >> 6), -most,
+                          most);
+    };
+    const fixed::Vec3& w = body.angular_velocity;
+    return body.velocity + fixed::Vec3{m(w.y, lever.z) - m(w.z, lever.y), m(w.z, lever.x) - m(w.x, lever.z),
+                                       m(w.x, lever.y) - m(w.y, lever.x)};
+}
+
 // Each axis within ±limit; true where one was not.
 inline bool clamp_vector(fixed::Vec3& value, std::int64_t limit) {
     const fixed::Vec3 before = value;

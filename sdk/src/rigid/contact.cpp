@@ -18,19 +18,6 @@ constexpr std::int64_t deep_overlap = (std::int64_t{1} << world_fraction_bits) /
 // How fast the rest parts at most: 0.4 m/s.
 constexpr std::int64_t greatest_parting = (std::int64_t{2} << world_fraction_bits) / 5;
 
-Vec3 cross(const Vec3& spin, const Vec3& lever) {
-    // World · World, spins to 22 bits behind the point and levers to 24; a collider's lever may be very long.
-    const auto m = [](std::int64_t a, std::int64_t b) {
-        return fixed::saturate_to_int64(fixed::multiply_signed(a >> 18, b >> 16) >> 6);
-    };
-    return {m(spin.y, lever.z) - m(spin.z, lever.y), m(spin.z, lever.x) - m(spin.x, lever.z),
-            m(spin.x, lever.y) - m(spin.y, lever.x)};
-}
-
-Vec3 velocity_at(const Body& body, const Vec3& lever) {
-    return body.velocity + cross(body.angular_velocity, lever);
-}
-
 // n, and two directions across it and across each other.
 void span(const Direction& n, Direction (&directions)[3]) {
     fixed::NormalisedVector way{};
