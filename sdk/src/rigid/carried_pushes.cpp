@@ -112,8 +112,7 @@ private:
         for_each_part(scene_, range_, kind, use);
     }
 
-    std::uint64_t first_part() const { return scene_.figure_parts[range_.begin()]; }
-    std::uint32_t figure() const { return figure_of(first_part()); }
+    std::uint32_t figure() const { return name_of(scene_, range_); }
     std::uint32_t neighbour_of(std::uint32_t contact) const {
         const ContactKey& key = scene_.contacts[contact].key;
         return scene_.figures[scene_.figures[key.body_a] == figure() ? key.other : key.body_a];

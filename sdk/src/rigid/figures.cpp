@@ -82,7 +82,7 @@ void find_figures(RigidScene& scene) {
 }
 
 const InverseMass& heaviest_of(const RigidScene& scene, const FigureRange& figure) {
-    const InverseMass* best = &scene.bodies[index_of(scene.figure_parts[figure.begin()])].inverse_mass;
+    const InverseMass* best = &scene.bodies[name_of(scene, figure)].inverse_mass;
     for_each_part(scene, figure, Part::body, [&](std::uint32_t i) {
         const InverseMass& other = scene.bodies[i].inverse_mass;
         best = heavier(other, *best) ? &other : best;

@@ -10,6 +10,11 @@ namespace lks {
 // Of what is awake in this tick, in the order of the least bodies. After find_articulations.
 void find_figures(RigidScene& scene);
 
+// The least index of its bodies, which names it.
+inline std::uint32_t name_of(const RigidScene& scene, const FigureRange& figure) {
+    return figure_of(scene.figure_parts[figure.begin()]);
+}
+
 // The inverse mass of its heaviest body, and the mass of another one in that one's: 30 fraction bits, at most
 // one.
 const InverseMass& heaviest_of(const RigidScene& scene, const FigureRange& figure);

@@ -236,7 +236,7 @@ void RigidSubstep::push_contacts_again(const FigureRange& figure) {
             carry_on(contact, false, move_of(contact.key.other));
         }
     });
-    const std::uint32_t own = figure_of(scene_.figure_parts[figure.begin()]);
+    const std::uint32_t own = name_of(scene_, figure);
     for_each_part(scene_, figure, Part::shared_contact, [&](std::uint32_t i) {
         Contact& contact = scene_.contacts[i];
         const bool is_a = scene_.figures[contact.key.body_a] == own;
@@ -363,7 +363,7 @@ void RigidSubstep::mark_exceeded_limits() {
             for_each_joint(figure, [&](const Joint& joint, const Body& a, const Body& b) {
                 const std::int64_t turned = joint.in_held_tree ? turned_away(joint, a, b, true) : 0;
                 if (turned > far_turned || exceeded_limits(joint, a, b, true) > far_turned) {
-                    mark_strained(figure_of(scene_.figure_parts[figure.begin()]));
+                    mark_strained(name_of(scene_, figure));
                 }
             });
         }
@@ -379,7 +379,7 @@ bool RigidSubstep::find_strained() {
 }
 
 bool RigidSubstep::is_strained(const FigureRange& figure) const {
-    return scene_.strained_figures[figure_of(scene_.figure_parts[figure.begin()])] != 0;
+    return scene_.strained_figures[name_of(scene_, figure)] != 0;
 }
 
 bool RigidSubstep::are_strained(const Contact& shared) const {
