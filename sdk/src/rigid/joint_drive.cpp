@@ -2,6 +2,7 @@
 
 #include "fixed/arc_tangent.h"
 #include "rigid/joint_frames.h"
+#include "rigid/substep_motion.h"
 
 namespace lks {
 namespace {
@@ -103,6 +104,15 @@ Vec3 add_to_drive(Joint& joint, std::int32_t share) {
     const Vec3 before = joint.grip;
     joint.grip = within_grip(joint, before + fixed::scaled(share, before));
     return joint.grip - before;
+}
+
+std::int64_t work_of_drive(const Joint& joint, const Body& a, const Body& b) {
+    const auto at_reach = [&](std::int64_t angle) { return shifted(angle, joint.constants.reach); };
+    const Vec3 half_turn = turned_since_start(a, b);
+    const Vec3 push = to_motion({at_reach(joint.grip.x), at_reach(joint.grip.y), at_reach(joint.grip.z)});
+    const Vec3 way = to_motion(
+        {at_reach(to_angle(half_turn.x)), at_reach(to_angle(half_turn.y)), at_reach(to_angle(half_turn.z))});
+    return push.x * way.x + push.y * way.y + push.z * way.z;
 }
 
 void project_drive(Joint& joint, Body& a, Body& b) {
