@@ -40,10 +40,10 @@ public:
         }
         twist_least_ = twist_min_;
         twist_most_ = twist_max_;
-        Scalar twist = 0;
+        Twist twist;
         if (twists_ && find_twist(a, b, twist)) {
-            twist_least_ = std::min(twist_min_, twist);
-            twist_most_ = std::max(twist_max_, twist);
+            twist_least_ = std::min(twist_min_, twist.angle);
+            twist_most_ = std::max(twist_max_, twist.angle);
         }
     }
 
@@ -61,7 +61,7 @@ public:
         if (swing_push_ != 0 && find_pushed_swing(a, b, swing)) {
             sum = swing.axis * -swing_push_;
         }
-        return twist_push_ != 0 ? sum + find_twist_axis(a, b).axis * twist_push_ : sum;
+        return twist_push_ != 0 ? sum + measure_twist(a, b).axis * twist_push_ : sum;
     }
     void carry_more(Body& a, Body& b, Scalar share) {
         push(a, b, swing_push_ * share, twist_push_ * share);
@@ -91,10 +91,10 @@ public:
         if (swings_ && find_swing(a, b, swing)) {
             beyond = swing.angle - std::max(swing.limit, swing_start_);
         }
-        Scalar twist = 0;
+        Twist twist;
         if (twists_ && find_twist(a, b, twist)) {
-            beyond = std::max(beyond, std::max(twist - twist_most_, twist_least_ - twist) *
-                                          find_twist_axis(a, b).share);
+            beyond = std::max(beyond,
+                              twist.share * std::max(twist.angle - twist_most_, twist_least_ - twist.angle));
         }
         return beyond;
     }
@@ -109,10 +109,10 @@ public:
         if (swings_ && find_swing(a, b, swing)) {
             worst = swing.angle - swing.limit;
         }
-        Scalar twist = 0;
+        Twist twist;
         if (twists_ && find_twist(a, b, twist)) {
-            worst = std::max(worst,
-                             std::max(twist - twist_max_, twist_min_ - twist) * find_twist_axis(a, b).share);
+            worst =
+                std::max(worst, twist.share * std::max(twist.angle - twist_max_, twist_min_ - twist.angle));
         }
         return worst;
     }
@@ -133,14 +133,13 @@ public:
                             &swing_push_, 1});
         }
         if (twists_) {
-            const Scalar twist = measure_twist(a, b);
+            const Twist twist = measure_twist(a, b);
             const Scalar push = in_substep ? twist_push_ : 0;
-            const TwistAxis about = find_twist_axis(a, b);
-            const Scalar to_most = ((in_substep ? twist_most_ : twist_max_) - twist) * about.share;
-            const Scalar to_least = (twist - (in_substep ? twist_least_ : twist_min_)) * about.share;
+            const Scalar to_most = ((in_substep ? twist_most_ : twist_max_) - twist.angle) * twist.share;
+            const Scalar to_least = (twist.angle - (in_substep ? twist_least_ : twist_min_)) * twist.share;
             const bool most = push < 0 || (push == 0 && to_most < to_least);
             const Scalar sign = most ? -1 : 1;
-            rows.push_back({about.axis * sign, most ? to_most : to_least, push * sign, &twist_push_, sign});
+            rows.push_back({twist.axis * sign, most ? to_most : to_least, push * sign, &twist_push_, sign});
         }
     }
 
@@ -156,12 +155,11 @@ public:
             beyond = swing.angle - swing.limit;
             turn(a, b, swing.axis, push_for(a, b, swing.axis, -beyond * more));
         }
-        Scalar twist = 0;
+        Twist twist;
         if (twists_ && find_twist(a, b, twist)) {
-            const TwistAxis about = find_twist_axis(a, b);
-            const Scalar back = (std::clamp(twist, twist_min_, twist_max_) - twist) * about.share;
+            const Scalar back = (std::clamp(twist.angle, twist_min_, twist_max_) - twist.angle) * twist.share;
             beyond = std::max(beyond, std::abs(back));
-            turn(a, b, about.axis, push_for(a, b, about.axis, back * more));
+            turn(a, b, twist.axis, push_for(a, b, twist.axis, back * more));
         }
         return beyond > Scalar(1) / 115;
     }
@@ -217,29 +215,26 @@ private:
         return std::hypot(x, z) / std::hypot(x / limit_x_, z / limit_z_);
     }
 
-    Scalar measure_twist(const Body& a, const Body& b) const {
+    // About the middle of both axes, and how much of it is to be turned: all, but beyond 110 degrees of swing
+    // no more than one and three quarters of what it takes.
+    struct Twist {
+        Vec axis;
+        Scalar share = 1;
+        Scalar angle = 0;
+    };
+    Twist measure_twist(const Body& a, const Body& b) const {
         Quat q = (a.orientation * frame_a_).conjugate() * (b.orientation * frame_b_);
         if (q.w < 0) {
             q = {-q.x, -q.y, -q.z, -q.w};
         }
-        return 2 * std::atan2(q.y, q.w);
-    }
-    // False: within the limits.
-    bool find_twist(const Body& a, const Body& b, Scalar& twist) const {
-        twist = measure_twist(a, b);
-        return twist < twist_min_ || twist > twist_max_ || twist_push_ != 0;
-    }
-
-    // The middle of both axes, and how much of a twist is to be turned about it: all, but beyond 110 degrees
-    // of swing no more than one and three quarters of what it takes.
-    struct TwistAxis {
-        Vec axis;
-        Scalar share;
-    };
-    TwistAxis find_twist_axis(const Body& a, const Body& b) const {
         const Vec sum = axis_a(a) + axis_b(b);
         const Scalar length = sum.length();
-        return {sum * (1 / length), std::min(length * Scalar(0.875), Scalar(1))};
+        return {sum * (1 / length), std::min(length * Scalar(0.875), Scalar(1)), 2 * std::atan2(q.y, q.w)};
+    }
+    // False: within the limits.
+    bool find_twist(const Body& a, const Body& b, Twist& twist) const {
+        twist = measure_twist(a, b);
+        return twist.angle < twist_min_ || twist.angle > twist_max_ || twist_push_ != 0;
     }
 
     // By how much it is beyond its limit, was when the substep began, and what has been pushed against that.
@@ -262,24 +257,23 @@ private:
 
     // Beyond its greatest it may only be turned down, below its least only up.
     void hold_twist(Body& a, Body& b) {
-        Scalar twist = 0;
+        Twist twist;
         if (!find_twist(a, b, twist)) {
             return;
         }
         const bool soft = softness_.is_soft();
-        const TwistAxis about = find_twist_axis(a, b);
         const auto push_back = [&](Scalar back) {
-            return push_for(a, b, about.axis, soft ? back : back * about.share);
+            return push_for(a, b, twist.axis, soft ? back : back * twist.share);
         };
         const Scalar before = twist_push_;
-        if (twist > (soft ? twist_max_ : twist_most_) || before < 0) {
-            const Scalar back = to_turn_back(twist - twist_max_, twist_most_ - twist_max_, -before);
+        if (twist.angle > (soft ? twist_max_ : twist_most_) || before < 0) {
+            const Scalar back = to_turn_back(twist.angle - twist_max_, twist_most_ - twist_max_, -before);
             twist_push_ = std::min(before - push_back(back), Scalar(0));
-        } else if (twist < (soft ? twist_min_ : twist_least_) || before > 0) {
-            const Scalar back = to_turn_back(twist_min_ - twist, twist_min_ - twist_least_, before);
+        } else if (twist.angle < (soft ? twist_min_ : twist_least_) || before > 0) {
+            const Scalar back = to_turn_back(twist_min_ - twist.angle, twist_min_ - twist_least_, before);
             twist_push_ = std::max(before + push_back(back), Scalar(0));
         }
-        turn(a, b, about.axis, twist_push_ - before);
+        turn(a, b, twist.axis, twist_push_ - before);
     }
 
     void push(Body& a, Body& b, Scalar swing_push, Scalar twist_push) const {
@@ -288,7 +282,7 @@ private:
             turn(a, b, swing.axis, -swing_push);
         }
         if (twist_push != 0) {
-            turn(a, b, find_twist_axis(a, b).axis, twist_push);
+            turn(a, b, measure_twist(a, b).axis, twist_push);
         }
     }
 

@@ -108,28 +108,45 @@ bool has_no_twist(const fixed::Rotation& q) {
     return std::int64_t{q.y} * q.y + std::int64_t{q.w} * q.w < std::int64_t{1} << 50;
 }
 
-// Half the twist is the angle of (q.w, q.y). False: there is none.
-bool measure_twist(const Joint& joint, const Body& a, const Body& b, std::int64_t& twist) {
-    const fixed::Rotation q = relative_rotation(joint, a, b);
-    twist = 2 * fixed::angle_of(q.y, q.w);
-    return !has_no_twist(q);
+// What turns b about the middle of both axes twists it by more, the further it has swung: by one over the
+// cosine of half the swing, which goes to infinity. To turn the whole twist would turn it ever further to the
+// other side from 120 degrees on. So beyond 110 degrees it is turned by less: at most one and three quarters
+// of what it takes.
+struct Twist {
+    Direction axis;
+    std::int32_t share; // 30 fraction bits
+    std::int64_t angle; // World, radians
+
+    // What of a twist is to be turned.
+    std::int64_t turn_for(std::int64_t twist) const { return fixed::scale_component(share, twist); }
+};
+
+// But for its angle. False: there is no middle.
+bool find_twist_axis(const Joint& joint, const Body& a, const Body& b, Twist& twist) {
+    const auto [u, v] = axes_of(joint, a, b);
+    fixed::NormalisedVector way{};
+    const bool any = fixed::normalise(
+        Vec3{std::int64_t{u.x} + v.x, std::int64_t{u.y} + v.y, std::int64_t{u.z} + v.z}, way);
+    twist.axis = way.direction;
+    // The sum is as long as twice the cosine.
+    twist.share = static_cast<std::int32_t>(std::min<std::int64_t>(way.length / 8 * 7, direction_one));
+    return any;
+}
+
+// Half its angle is that of (q.w, q.y). False: there is none.
+bool measure_twist(const Joint& joint, const Body& a, const Body& b, const fixed::Rotation& q, Twist& twist) {
+    twist.angle = 2 * fixed::angle_of(q.y, q.w);
+    return !has_no_twist(q) && find_twist_axis(joint, a, b, twist);
 }
 
 // Where the twist is certainly within its limits nobody need know it.
-bool find_twist(const Joint& joint, const Body& a, const Body& b, std::int64_t& twist) {
+bool find_twist(const Joint& joint, const Body& a, const Body& b, Twist& twist) {
     const fixed::Rotation q = relative_rotation(joint, a, b);
     const JointConstants& c = joint.constants;
-    if (has_no_twist(q)) {
-        return false;
-    }
     // sin(twist/2 − limit/2), times what is left of the swing.
     const std::int64_t above = std::int64_t{q.y} * c.half_max.cosine - std::int64_t{q.w} * c.half_max.sine;
     const std::int64_t below = std::int64_t{q.w} * c.half_min.sine - std::int64_t{q.y} * c.half_min.cosine;
-    if (above <= 0 && below <= 0 && joint.twist_push == 0) {
-        return false;
-    }
-    twist = 2 * fixed::angle_of(q.y, q.w);
-    return true;
+    return (above > 0 || below > 0 || joint.twist_push != 0) && measure_twist(joint, a, b, q, twist);
 }
 
 // In a substep what was exceeded when it began stays so.
@@ -147,53 +164,27 @@ AllowedTwist allowed_twist(const Joint& joint, bool in_substep) {
                       : AllowedTwist{joint.constants.twist_max, joint.constants.twist_min};
 }
 
-// What turns b about the middle of both axes twists it by more, the further it has swung: by one over the
-// cosine of half the swing, which goes to infinity. To turn the whole twist would turn it ever further to the
-// other side from 120 degrees on. So beyond 110 degrees it is turned by less: at most one and three quarters
-// of what it takes.
-struct TwistAxis {
-    Direction axis;
-    std::int32_t share; // 30 fraction bits
-
-    // What of a twist is to be turned.
-    std::int64_t turn_for(std::int64_t twist) const {
-        return share == direction_one ? twist : fixed::scale_component(share, twist);
-    }
-};
-
-bool find_twist_axis(const Joint& joint, const Body& a, const Body& b, TwistAxis& about) {
-    const auto [u, v] = axes_of(joint, a, b);
-    fixed::NormalisedVector way{};
-    const bool any = fixed::normalise(
-        Vec3{std::int64_t{u.x} + v.x, std::int64_t{u.y} + v.y, std::int64_t{u.z} + v.z}, way);
-    // Its length is twice the cosine.
-    about = {way.direction,
-             static_cast<std::int32_t>(std::min<std::int64_t>(way.length / 8 * 7, direction_one))};
-    return any;
-}
-
 void hold_twist(Joint& joint, Body& a, Body& b) {
-    std::int64_t twist = 0;
-    TwistAxis about{};
-    if (!find_twist(joint, a, b, twist) || !find_twist_axis(joint, a, b, about)) {
+    Twist twist{};
+    if (!find_twist(joint, a, b, twist)) {
         return;
     }
     const JointConstants& c = joint.constants;
-    const TurnRow row(joint, a, b, about.axis, c.limits.softness);
+    const TurnRow row(joint, a, b, twist.axis, c.limits.softness);
     const auto push_for = [&](std::int64_t back) {
-        return row.push_for(are_soft(joint) ? back : about.turn_for(back));
+        return row.push_for(are_soft(joint) ? back : twist.turn_for(back));
     };
     const std::int64_t before = joint.twist_push;
     const std::int64_t most = are_soft(joint) ? c.twist_max : joint.twist_most;
     const std::int64_t least = are_soft(joint) ? c.twist_min : joint.twist_least;
     // Beyond its greatest it may only be turned down, below its least only up.
-    if (twist > most || before < 0) {
+    if (twist.angle > most || before < 0) {
         const std::int64_t back =
-            to_turn_back(joint, twist - c.twist_max, joint.twist_most - c.twist_max, -before);
+            to_turn_back(joint, twist.angle - c.twist_max, joint.twist_most - c.twist_max, -before);
         joint.twist_push = std::clamp<std::int64_t>(before + push_for(-back), -greatest_push, 0);
-    } else if (twist < least || before > 0) {
+    } else if (twist.angle < least || before > 0) {
         const std::int64_t back =
-            to_turn_back(joint, c.twist_min - twist, c.twist_min - joint.twist_least, before);
+            to_turn_back(joint, c.twist_min - twist.angle, c.twist_min - joint.twist_least, before);
         joint.twist_push = std::clamp<std::int64_t>(before + push_for(back), 0, greatest_push);
     }
     row.apply(joint.twist_push - before);
@@ -204,9 +195,9 @@ void push_limits(const Joint& joint, Body& a, Body& b, std::int64_t swing_push, 
     if (swing_push != 0 && find_pushed_swing(joint, a, b, swing)) {
         TurnRow(joint, a, b, swing.axis).apply(-swing_push);
     }
-    TwistAxis about{};
-    if (twist_push != 0 && find_twist_axis(joint, a, b, about)) {
-        TurnRow(joint, a, b, about.axis).apply(twist_push);
+    Twist twist{};
+    if (twist_push != 0 && find_twist_axis(joint, a, b, twist)) {
+        TurnRow(joint, a, b, twist.axis).apply(twist_push);
     }
 }
 
@@ -222,10 +213,10 @@ void begin_limits(Joint& joint, const Body& a, const Body& b) {
     }
     joint.twist_least = c.twist_min;
     joint.twist_most = c.twist_max;
-    std::int64_t twist = 0;
+    Twist twist{};
     if (c.twist_limited && find_twist(joint, a, b, twist)) {
-        joint.twist_least = std::min(c.twist_min, twist);
-        joint.twist_most = std::max(c.twist_max, twist);
+        joint.twist_least = std::min(c.twist_min, twist.angle);
+        joint.twist_most = std::max(c.twist_max, twist.angle);
     }
 }
 
@@ -268,9 +259,9 @@ Vec3 limit_push(const Joint& joint, const Body& a, const Body& b) {
     if (joint.swing_push != 0 && find_pushed_swing(joint, a, b, swing)) {
         pushed = -fixed::scale(swing.axis, joint.swing_push);
     }
-    TwistAxis about{};
-    if (joint.twist_push != 0 && find_twist_axis(joint, a, b, about)) {
-        pushed = pushed + fixed::scale(about.axis, joint.twist_push);
+    Twist twist{};
+    if (joint.twist_push != 0 && find_twist_axis(joint, a, b, twist)) {
+        pushed = pushed + fixed::scale(twist.axis, joint.twist_push);
     }
     return pushed;
 }
@@ -284,12 +275,11 @@ std::int64_t exceeded_limits(const Joint& joint, const Body& a, const Body& b, b
     if (joint.constants.swing_limited && find_swing(joint, a, b, swing)) {
         beyond = swing.angle - allowed_swing(joint, swing, in_substep);
     }
-    std::int64_t twist = 0;
-    TwistAxis about{};
-    if (joint.constants.twist_limited && find_twist(joint, a, b, twist) &&
-        find_twist_axis(joint, a, b, about)) {
+    Twist twist{};
+    if (joint.constants.twist_limited && find_twist(joint, a, b, twist)) {
         const AllowedTwist allowed = allowed_twist(joint, in_substep);
-        beyond = std::max(beyond, about.turn_for(std::max(twist - allowed.most, allowed.least - twist)));
+        beyond = std::max(beyond,
+                          twist.turn_for(std::max(twist.angle - allowed.most, allowed.least - twist.angle)));
     }
     return beyond;
 }
@@ -308,13 +298,13 @@ bool undo_limits(const Joint& joint, Body& a, Body& b) {
         beyond = swing.angle - swing.limit;
         TurnRow(joint, a, b, swing.axis).turn_by(-more(beyond));
     }
-    std::int64_t twist = 0;
-    TwistAxis about{};
-    if (c.twist_limited && find_twist(joint, a, b, twist) && find_twist_axis(joint, a, b, about)) {
-        const std::int64_t back = about.turn_for(std::clamp(twist, c.twist_min, c.twist_max) - twist);
+    Twist twist{};
+    if (c.twist_limited && find_twist(joint, a, b, twist)) {
+        const std::int64_t back =
+            twist.turn_for(std::clamp(twist.angle, c.twist_min, c.twist_max) - twist.angle);
         if (back != 0) {
             beyond = std::max(beyond, back < 0 ? -back : back);
-            TurnRow(joint, a, b, about.axis).turn_by(more(back));
+            TurnRow(joint, a, b, twist.axis).turn_by(more(back));
         }
     }
     return beyond > far_beyond;
@@ -335,17 +325,16 @@ std::uint32_t limit_rows(const Joint& joint, const Body& a, const Body& b, bool 
                          allowed_swing(joint, swing, in_substep) - swing.angle,
                          in_substep ? joint.swing_push : 0};
     }
-    std::int64_t twist = 0;
-    TwistAxis about{};
-    if (c.twist_limited && measure_twist(joint, a, b, twist) && find_twist_axis(joint, a, b, about)) {
+    Twist twist{};
+    if (c.twist_limited && measure_twist(joint, a, b, relative_rotation(joint, a, b), twist)) {
         const std::int64_t push = in_substep ? joint.twist_push : 0;
         const AllowedTwist allowed = allowed_twist(joint, in_substep);
-        const std::int64_t to_most = about.turn_for(allowed.most - twist);
-        const std::int64_t to_least = about.turn_for(twist - allowed.least);
+        const std::int64_t to_most = twist.turn_for(allowed.most - twist.angle);
+        const std::int64_t to_least = twist.turn_for(twist.angle - allowed.least);
         if (push < 0 || (push == 0 && to_most < to_least)) {
-            rows[count++] = {HeldRow::Kind::most_twist, -about.axis, to_most, -push};
+            rows[count++] = {HeldRow::Kind::most_twist, -twist.axis, to_most, -push};
         } else {
-            rows[count++] = {HeldRow::Kind::least_twist, about.axis, to_least, push};
+            rows[count++] = {HeldRow::Kind::least_twist, twist.axis, to_least, push};
         }
     }
     return count;
