@@ -8,7 +8,7 @@
 using namespace support;
 
 // Near there a small turn twists by much. Where all of the twist was turned back, that went ever further to
-// the other side: up to 42 times the energy came of nothing.
+// the other side: up to 49 times the energy came of nothing.
 TEST_CASE("a rod that swings past where it has no twist gains no energy by its twist's limits") {
     Random random(5);
     const auto any = [&random](double most) {
