@@ -43,18 +43,18 @@ constexpr std::int64_t saturating_add(std::int64_t a, std::int64_t b) {
     return overflow ? (a < 0 ? INT64_MIN : INT64_MAX) : sum;
 }
 
-// a / 2^n to the nearest, half up; 0 <= n <= 63. The bit below the cut is added after the shift, so that
-// nothing overflows.
+// a / 2^n to the nearest, half up; 0 <= n <= 63. One is added to the bit below the cut, where from two bits
+// on nothing overflows.
 constexpr std::int64_t shift_right_rounded(std::int64_t a, int n) {
-    if (n == 0)
-        return a;
-    return (a >> n) + ((a >> (n - 1)) & 1);
+    if (n < 2)
+        return n == 0 ? a : (a >> 1) + (a & 1);
+    return ((a >> (n - 1)) + 1) >> 1;
 }
 
 constexpr std::uint64_t shift_right_rounded(std::uint64_t a, int n) {
-    if (n == 0)
-        return a;
-    return (a >> n) + ((a >> (n - 1)) & 1);
+    if (n < 2)
+        return n == 0 ? a : (a >> 1) + (a & 1);
+    return ((a >> (n - 1)) + 1) >> 1;
 }
 
 } // namespace lks::fixed
