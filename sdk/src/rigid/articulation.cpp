@@ -210,11 +210,8 @@ public:
               [](const Joint&, const Vec3&) {});
     }
 
-    // After one round. A limit that turns one bone back on its joint takes the points along: some rounds
-    // bring both right.
-    void finish_undoing(bool far_off) {
-        constexpr int most_rounds = 6;
-        for (int round = 1; round < most_rounds && far_off; ++round) {
+    void finish_undoing(bool far_off, int round) {
+        for (; round < most_undoing_rounds && far_off; ++round) {
             far_off = undo_errors();
             bring_together();
         }
@@ -334,8 +331,8 @@ bool undo_tree_errors(RigidScene& scene, const ArticulatedTree& tree) {
     return Tree(scene, tree).undo_errors();
 }
 
-void finish_undoing(RigidScene& scene, const ArticulatedTree& tree, bool far_off) {
-    Tree(scene, tree).finish_undoing(far_off);
+void finish_undoing(RigidScene& scene, const ArticulatedTree& tree, bool far_off, int round) {
+    Tree(scene, tree).finish_undoing(far_off, round);
 }
 
 void undo_articulation(RigidScene& scene, const ArticulatedTree& tree) {
@@ -346,7 +343,7 @@ void undo_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     }
     const bool far_off = all.undo_errors();
     all.bring_together();
-    all.finish_undoing(far_off);
+    all.finish_undoing(far_off, 1);
 }
 
 } // namespace lks

@@ -40,8 +40,11 @@ void add_tree_push(Joint& joint, const fixed::Vec3& push);
 // D⁻¹ of lanes first .. first + count − 1.
 void invert_points(const TreeLanes (&motion)[6], std::uint32_t first, std::uint32_t count,
                    TreeLanes (&inverse)[6]);
-// What undoing begins with; true: a limit was far off. Once the points are together:
+// What a round of undoing begins with, before it brings the points together; true: a limit was far off. A
+// limit that turns one bone back on its joint takes the points along: some rounds bring both right. From
+// `round` on:
+inline constexpr int most_undoing_rounds = 6;
 bool undo_tree_errors(RigidScene& scene, const ArticulatedTree& tree);
-void finish_undoing(RigidScene& scene, const ArticulatedTree& tree, bool far_off);
+void finish_undoing(RigidScene& scene, const ArticulatedTree& tree, bool far_off, int round);
 
 } // namespace lks

@@ -1,5 +1,7 @@
 #include "rigid/wide_trees.h"
 
+#include <bit>
+
 #include "rigid/articulation.h"
 #include "rigid/figures.h"
 
@@ -195,7 +197,7 @@ public:
     }
 
     void solve() {
-        move_points(true);
+        move_points(true, all_lanes());
         for_each_joint([this](ArticulatedJoint& part, WideTreeJoint& wide, std::uint32_t lane) {
             add_tree_push(scene_.joints[part.joint], get(wide.push, lane));
         });
@@ -209,19 +211,21 @@ public:
     }
 
     void undo() {
-        bool far_off[tree_lanes];
-        for (std::uint32_t lane = 0; lane < count(); ++lane) {
-            far_off[lane] = undo_tree_errors(scene_, tree(lane));
+        std::uint32_t far_off = undo_errors(all_lanes());
+        move_points(false, all_lanes());
+        int round = 1;
+        for (; round < most_undoing_rounds && std::popcount(far_off) >= int{least_trees_in_lanes}; ++round) {
+            const std::uint32_t lanes = far_off;
+            far_off = undo_errors(lanes);
+            move_points(false, lanes);
         }
-        move_points(false);
         // Rounds that few need go tree by tree.
-        for_each_joint([&](ArticulatedJoint& part, WideTreeJoint& wide, std::uint32_t lane) {
-            if (far_off[lane]) {
-                get_factors(wide, lane, part);
-            }
-        });
         for (std::uint32_t lane = 0; lane < count(); ++lane) {
-            finish_undoing(scene_, tree(lane), far_off[lane]);
+            const bool goes_on = (far_off >> lane & 1) != 0;
+            if (goes_on) {
+                hand_out_factors(lane);
+            }
+            finish_undoing(scene_, tree(lane), goes_on, round);
         }
     }
 
@@ -252,14 +256,30 @@ private:
         }
     }
 
-    // Bodies, so that the points of all joints are together.
-    void move_points(bool keeps_start) {
+    // Bit i: lane i.
+    std::uint32_t all_lanes() const { return (1u << count()) - 1; }
+
+    // Of these lanes; those in which a limit was far off.
+    std::uint32_t undo_errors(std::uint32_t lanes) {
+        std::uint32_t far_off = 0;
+        for (std::uint32_t lane = 0; lane < count(); ++lane) {
+            if ((lanes >> lane & 1) != 0 && undo_tree_errors(scene_, tree(lane))) {
+                far_off |= 1u << lane;
+            }
+        }
+        return far_off;
+    }
+
+    // Bodies of these lanes, so that the points of all joints are together.
+    void move_points(bool keeps_start, std::uint32_t lanes) {
         for_each_body([this](std::uint32_t index, WideTreeBody& wide, std::uint32_t lane) {
             set_pose(scene_.bodies[index], wide, lane);
         });
         scene_.tree_kernels().solve(task(keeps_start));
-        for_each_body([this](std::uint32_t index, WideTreeBody& wide, std::uint32_t lane) {
-            get_pose(wide, lane, scene_.bodies[index]);
+        for_each_body([&](std::uint32_t index, WideTreeBody& wide, std::uint32_t lane) {
+            if ((lanes >> lane & 1) != 0) {
+                get_pose(wide, lane, scene_.bodies[index]);
+            }
         });
     }
 
