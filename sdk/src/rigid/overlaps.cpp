@@ -16,14 +16,6 @@ bool Overlaps::reserve(std::uint32_t count) {
            sorted_.reserve(count) && starts_.reserve(buckets + 1);
 }
 
-std::uint32_t Overlaps::bucket_of(const Cell& cell, std::uint32_t level) const {
-    std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x9e3779b97f4a7c15u;
-    hash = (hash ^ static_cast<std::uint64_t>(cell.y)) * 0xc2b2ae3d27d4eb4fu;
-    hash = (hash ^ static_cast<std::uint64_t>(cell.z)) * 0x165667b19e3779f9u;
-    hash += level * std::uint64_t{0x27d4eb2f165667c5u};
-    return static_cast<std::uint32_t>(hash >> 32) & bucket_mask_;
-}
-
 void Overlaps::sort_into_cells() {
     const auto count = static_cast<std::uint32_t>(boxes_.size());
     std::uint32_t bucket_count = 16;
@@ -55,7 +47,7 @@ void Overlaps::sort_into_cells() {
     // From the last to the first, so that a bucket holds its boxes in ascending order; each start ends up
     // where its bucket begins.
     for (std::uint32_t i = count; i-- > 0;) {
-        sorted_[--starts_[buckets_[i] + 1]] = i;
+        sorted_[--starts_[buckets_[i] + 1]] = {boxes_[i], i, levels_[i]};
     }
     for (std::uint32_t b = 0; b < bucket_count; ++b) {
         starts_[b] = starts_[b + 1];

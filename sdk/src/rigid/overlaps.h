@@ -66,7 +66,20 @@ private:
         const int shift = least_size_bits + static_cast<int>(level);
         return {point.x >> shift, point.y >> shift, point.z >> shift};
     }
-    std::uint32_t bucket_of(const Cell& cell, std::uint32_t level) const;
+    // A box where its bucket is looked through: one behind the other in memory.
+    struct Entry {
+        Box box;
+        std::uint32_t index;
+        std::uint32_t level;
+    };
+
+    std::uint32_t bucket_of(const Cell& cell, std::uint32_t level) const {
+        std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x9e3779b97f4a7c15u;
+        hash = (hash ^ static_cast<std::uint64_t>(cell.y)) * 0xc2b2ae3d27d4eb4fu;
+        hash = (hash ^ static_cast<std::uint64_t>(cell.z)) * 0x165667b19e3779f9u;
+        hash += level * std::uint64_t{0x27d4eb2f165667c5u};
+        return static_cast<std::uint32_t>(hash >> 32) & bucket_mask_;
+    }
     void sort_into_cells();
 
     // At its own level a pair is found by the one in the earlier cell, or else by the lower index.
@@ -102,10 +115,12 @@ private:
     template <typename Use>
     void search_cell(std::uint32_t i, std::uint32_t level, const Cell& cell, bool own, const Use& use) {
         const std::uint32_t bucket = bucket_of(cell, level);
-        for (std::uint32_t at = starts_[bucket]; at < starts_[bucket + 1]; ++at) {
-            const std::uint32_t j = sorted_[at];
-            if (!boxes_[i].overlaps(boxes_[j]) || levels_[j] != level || (own && j <= i) ||
-                !(cell_of(boxes_[j].low, level) == cell)) {
+        const Box box = boxes_[i];
+        const Entry* const end = sorted_.begin() + starts_[bucket + 1];
+        for (const Entry* entry = sorted_.begin() + starts_[bucket]; entry != end; ++entry) {
+            const std::uint32_t j = entry->index;
+            if (entry->level != level || !box.overlaps(entry->box) || (own && j <= i) ||
+                !(cell_of(entry->box.low, level) == cell)) {
                 continue;
             }
             use(i < j ? i : j, i < j ? j : i);
@@ -116,7 +131,7 @@ private:
     Array<std::uint8_t> levels_;
     Array<std::uint32_t> buckets_; // by box
     Array<std::uint32_t> starts_;  // by bucket, into sorted_
-    Array<std::uint32_t> sorted_;
+    Array<Entry> sorted_;
     std::uint32_t bucket_mask_ = 0;
     std::uint64_t present_ = 0; // levels
 };
