@@ -6,6 +6,7 @@
 #include "collide/filter.h"
 #include "collide/plane_motion.h"
 #include "collide/saturation.h"
+#include "memory/sort_numbers.h"
 #include "rigid/sleep.h"
 #include "threads/blocks.h"
 
@@ -211,7 +212,7 @@ private:
         }
         scene_.overlaps.for_each_pair(
             [this](std::uint32_t i, std::uint32_t j) { add_pair(scene_.boxed[i], scene_.boxed[j]); });
-        std::sort(scene_.pairs.begin(), scene_.pairs.end());
+        sort_numbers(scene_.pairs, scene_.sorting);
     }
 
     // Planes meet everybody; what is above them is found out with the points.

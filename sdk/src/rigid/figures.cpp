@@ -1,7 +1,6 @@
 #include "rigid/figures.h"
 
-#include <algorithm>
-
+#include "memory/sort_numbers.h"
 #include "rigid/body_roots.h"
 
 namespace lks {
@@ -77,7 +76,7 @@ void find_figures(RigidScene& scene) {
             add(d.other, Part::attachment, i);
         }
     }
-    std::sort(scene.figure_parts.begin(), scene.figure_parts.end());
+    sort_numbers(scene.figure_parts, scene.sorting);
     find_ranges(scene);
 }
 

@@ -9,7 +9,7 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       joints(allocator), memories(allocator), attachment_slots(allocator), attachments(allocator),
       descriptions(allocator), jointed(allocator), ticks(allocator), collider_bodies(allocator),
       pieces(allocator), piece_starts(allocator), travels(allocator), overlaps(allocator), boxed(allocator),
-      pairs(allocator), found(allocator), found_order(allocator), contacts(allocator),
+      pairs(allocator), sorting(allocator), found(allocator), found_order(allocator), contacts(allocator),
       contact_points(allocator), contact_moves(allocator), next_memories(allocator), islands(allocator),
       tree_roots(allocator), tree_links(allocator), tree_bodies(allocator), tree_joints(allocator),
       articulated(allocator), trees(allocator), held_joints(allocator), figures(allocator),
@@ -84,9 +84,10 @@ bool RigidScene::reserve_objects(std::size_t count) {
 bool RigidScene::reserve_figures(std::size_t body_count, std::size_t joint_count,
                                  std::size_t attachment_count) {
     // As many trees as joints at most.
-    return figure_parts.reserve(body_count + 2 * joint_count + attachment_count +
-                                2 * contact_capacity(body_count)) &&
-           figure_ranges.reserve(body_count);
+    const std::size_t parts =
+        body_count + 2 * joint_count + attachment_count + 2 * contact_capacity(body_count);
+    return figure_parts.reserve(parts) && figure_ranges.reserve(body_count) &&
+           sorting.reserve(std::max(parts, pair_capacity(body_count)));
 }
 
 void RigidScene::forget_contacts(std::uint32_t other) {

@@ -82,9 +82,10 @@ struct RigidScene {
     Array<std::uint32_t> piece_starts; // by body, into pieces
     Array<std::int64_t> travels;       // by body: how far any point of it goes in a tick at most, by its spin
     Overlaps overlaps;
-    Array<std::uint32_t> boxed; // by box: body, or collider | other_is_collider
-    Array<std::uint64_t> pairs; // body a << 32 | other, ascending
-    Array<FoundContact> found;  // by a team, in any order
+    Array<std::uint32_t> boxed;   // by box: body, or collider | other_is_collider
+    Array<std::uint64_t> pairs;   // body a << 32 | other, ascending
+    Array<std::uint64_t> sorting; // room to sort the numbers of a tick in
+    Array<FoundContact> found;    // by a team, in any order
     Array<std::uint32_t> found_order;
     Array<Contact> contacts;
     Array<ContactPoint> contact_points; // contact by contact
