@@ -21,10 +21,6 @@ Motion motion_since(const Body& body, const Vec3& position, const Quaternion& or
     return {to_motion(body.position - position), to_turn_motion(body, half_turn, 30)};
 }
 
-Motion motion_of_substep(const Body& body) {
-    return motion_since(body, body.start_position, body.start_orientation);
-}
-
 // What everything that was carried on has done to it.
 Motion motion_by_pushes(const Body& body) {
     return motion_since(body, body.uncarried_position, body.uncarried_orientation);
@@ -49,10 +45,14 @@ std::int32_t missing_share(const Int128& g, const Int128& q) {
     return g.hi < 0 ? signed_share : -signed_share;
 }
 
+void measure_motion(RigidScene& scene, std::uint32_t index) {
+    const Body& body = scene.bodies[index];
+    scene.substep_motions[index] = motion_since(body, body.start_position, body.start_orientation);
+}
+
 class Figure {
 public:
-    Figure(RigidScene& scene, const FigureRange& range)
-        : scene_(scene), range_(range), heaviest_(heaviest_of(scene, range)) {}
+    Figure(RigidScene& scene, const FigureRange& range) : scene_(scene), range_(range) {}
 
     std::int32_t share_to_add(std::int64_t least_motion) {
         for_each(Part::body, [this](std::uint32_t i) { add_body(i); });
@@ -93,13 +93,18 @@ public:
     // It has been added to: what others had in mind with it has to be thought over.
     void mark_changed() {
         scene_.figures_changed[figure()] = 1;
-        for_each(Part::shared_contact,
-                 [this](std::uint32_t i) { scene_.figures_changed[neighbour_of(i)] = 1; });
+        for_each(Part::body, [this](std::uint32_t i) { measure_motion(scene_, i); });
+        for_each(Part::shared_contact, [this](std::uint32_t i) {
+            const std::uint32_t body = neighbouring_body(i);
+            scene_.figures_changed[scene_.figures[body]] = 1;
+            measure_motion(scene_, body);
+        });
     }
     bool knows_changed() const {
         bool any = scene_.figures_changed[figure()] != 0;
-        for_each(Part::shared_contact,
-                 [&](std::uint32_t i) { any = any || scene_.figures_changed[neighbour_of(i)] != 0; });
+        for_each(Part::shared_contact, [&](std::uint32_t i) {
+            any = any || scene_.figures_changed[scene_.figures[neighbouring_body(i)]] != 0;
+        });
         return any;
     }
 
@@ -113,9 +118,9 @@ private:
     }
 
     std::uint32_t figure() const { return name_of(scene_, range_); }
-    std::uint32_t neighbour_of(std::uint32_t contact) const {
+    std::uint32_t neighbouring_body(std::uint32_t contact) const {
         const ContactKey& key = scene_.contacts[contact].key;
-        return scene_.figures[scene_.figures[key.body_a] == figure() ? key.other : key.body_a];
+        return scene_.figures[key.body_a] == figure() ? key.other : key.body_a;
     }
 
     void add_products(std::uint32_t index, std::int32_t mass, const Motion& by_pushes, const Motion& motion) {
@@ -126,9 +131,9 @@ private:
 
     void add_body(std::uint32_t index) {
         const Body& body = scene_.bodies[index];
-        const std::int32_t mass = mass_in(heaviest_, body);
+        const std::int32_t mass = scene_.figure_masses[index];
         mass_ += static_cast<std::uint64_t>(mass);
-        add_products(index, mass, motion_by_pushes(body), motion_of_substep(body));
+        add_products(index, mass, motion_by_pushes(body), scene_.substep_motions[index]);
     }
 
     // What the contacts with other figures do to these; those of the same two bodies stand together.
@@ -137,11 +142,11 @@ private:
         std::uint32_t a = UINT32_MAX;
         std::uint32_t other = UINT32_MAX;
         const auto finish = [&] {
-            if (a != UINT32_MAX) {
+            if (!(move == Move{})) { // most only come near each other
                 const std::uint32_t neighbour = scene_.figures[a] == figure() ? other : a;
                 const Body& body = scene_.bodies[neighbour];
-                add_products(neighbour, mass_in(heaviest_, body), motion_of_move(body, move),
-                             motion_of_substep(body));
+                add_products(neighbour, mass_in(range_.heaviest, body), motion_of_move(body, move),
+                             scene_.substep_motions[neighbour]);
             }
         };
         for_each(Part::shared_contact, [&](std::uint32_t i) {
@@ -165,12 +170,11 @@ private:
         const Motion expected = motion_of_move(body, move_of(body, attachment.side, attachment.expected, 1));
         g_ = g_ + fixed::multiply_signed(product(scene_.descriptions[index].properties.inertia,
                                                  motion_by_pushes(body), expected),
-                                         mass_in(heaviest_, body));
+                                         scene_.figure_masses[index]);
     }
 
     RigidScene& scene_;
     const FigureRange& range_;
-    const InverseMass& heaviest_;
     Int128 g_{0, 0};
     Int128 q_{0, 0};
     std::uint64_t mass_ = 0; // 30 fraction bits
@@ -187,6 +191,12 @@ bool is_pushed(const FigureRange& range) {
 }
 
 } // namespace
+
+void measure_motions(RigidScene& scene, const FigureRange& range) {
+    if (is_pushed(range)) {
+        for_each_part(scene, range, Part::body, [&](std::uint32_t i) { measure_motion(scene, i); });
+    }
+}
 
 std::int32_t share_to_add(RigidScene& scene, const FigureRange& range, const MotionRate& rate,
                           std::int64_t least_speed) {

@@ -19,7 +19,10 @@
 
 namespace lks {
 
-// Once joints and contacts have pushed again. `least_speed`: World m/s, what is slower is left alone. How
+// How a figure's bodies move in this substep, once joints and contacts have pushed again; into
+// scene.substep_motions.
+void measure_motions(RigidScene& scene, const FigureRange& figure);
+// Once that is known of all. `least_speed`: World m/s, what is slower is left alone. How
 // much of its pushes a figure is to get more of, 30 fraction bits; into scene.figure_shares.
 std::int32_t share_to_add(RigidScene& scene, const FigureRange& figure, const MotionRate& rate,
                           std::int64_t least_speed);

@@ -406,7 +406,7 @@ private:
             ++world_.counters.lost_contacts;
             return;
         }
-        scene_.contacts.push_reserved(Contact{});
+        static_cast<void>(scene_.contacts.resize(scene_.contacts.size() + 1)); // within its room
         Contact& contact = scene_.contacts[scene_.contacts.size() - 1];
         const Body& body_a = scene_.bodies[key.body_a];
         const Body& body_b = other_body(scene_, key.other);

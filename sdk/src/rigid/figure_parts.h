@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "rigid/body.h"
+
 namespace lks {
 
 // In the order of its work. Shared contacts are those of two figures, and parts of both.
@@ -27,8 +29,9 @@ constexpr std::uint32_t index_of(std::uint64_t part) {
 // Where the parts of each kind begin among all parts, and where the last ones end.
 struct FigureRange {
     std::uint32_t begins[part_kinds + 1];
-    bool is_held;  // by a joint to what does not move
-    bool relieved; // in this substep: it had iterations more
+    InverseMass heaviest; // of its heaviest body
+    bool is_held;         // by a joint to what does not move
+    bool relieved;        // in this substep: it had iterations more
 
     std::uint32_t begin() const { return begins[0]; }
     std::uint32_t count(Part kind) const {

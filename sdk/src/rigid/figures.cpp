@@ -6,9 +6,19 @@
 namespace lks {
 namespace {
 
+InverseMass heaviest_of(const RigidScene& scene, const FigureRange& figure) {
+    InverseMass best = scene.bodies[name_of(scene, figure)].inverse_mass;
+    for_each_part(scene, figure, Part::body, [&](std::uint32_t i) {
+        const InverseMass& other = scene.bodies[i].inverse_mass;
+        best = heavier(other, best) ? other : best;
+    });
+    return best;
+}
+
 void find_ranges(RigidScene& scene) {
     const Array<std::uint64_t>& parts = scene.figure_parts;
     scene.figure_ranges.clear();
+    static_cast<void>(scene.figure_masses.resize(scene.bodies.size())); // within its room
     for (std::uint32_t i = 0; i < parts.size();) {
         const std::uint32_t figure = figure_of(parts[i]);
         FigureRange range{};
@@ -24,6 +34,10 @@ void find_ranges(RigidScene& scene) {
             const JointDescription& d = scene.joints[joint].description;
             range.is_held =
                 range.is_held || !scene.bodies[d.body_a].is_awake() || !scene.bodies[d.body_b].is_awake();
+        });
+        range.heaviest = heaviest_of(scene, range);
+        for_each_part(scene, range, Part::body, [&](std::uint32_t body) {
+            scene.figure_masses[body] = mass_in(range.heaviest, scene.bodies[body]);
         });
         scene.figure_ranges.push_reserved(range);
     }
@@ -78,15 +92,6 @@ void find_figures(RigidScene& scene) {
     }
     sort_numbers(scene.figure_parts, scene.sorting);
     find_ranges(scene);
-}
-
-const InverseMass& heaviest_of(const RigidScene& scene, const FigureRange& figure) {
-    const InverseMass* best = &scene.bodies[name_of(scene, figure)].inverse_mass;
-    for_each_part(scene, figure, Part::body, [&](std::uint32_t i) {
-        const InverseMass& other = scene.bodies[i].inverse_mass;
-        best = heavier(other, *best) ? &other : best;
-    });
-    return *best;
 }
 
 } // namespace lks

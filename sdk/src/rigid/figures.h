@@ -15,11 +15,9 @@ inline std::uint32_t name_of(const RigidScene& scene, const FigureRange& figure)
     return figure_of(scene.figure_parts[figure.begin()]);
 }
 
-// The inverse mass of its heaviest body, and the mass of another one in that one's: 30 fraction bits, at most
-// one.
-const InverseMass& heaviest_of(const RigidScene& scene, const FigureRange& figure);
+// The mass of a body in that of a figure's heaviest one: 30 fraction bits, at most one.
 inline std::int32_t mass_in(const InverseMass& heaviest, const Body& body) {
-    return pair_shares(heaviest, body.inverse_mass).a;
+    return share_in_greater(heaviest, body.inverse_mass);
 }
 
 // Calls use(index) for each of its parts of one kind.

@@ -64,7 +64,7 @@ private:
 class HeldFigure {
 public:
     HeldFigure(RigidScene& scene, const FigureRange& range, const MotionRate& rate)
-        : scene_(scene), range_(range), rate_(rate), heaviest_(heaviest_of(scene, range)) {}
+        : scene_(scene), range_(range), rate_(rate) {}
 
     void take_out_gain() {
         const Body* holder = nullptr;
@@ -96,7 +96,7 @@ private:
         for_each(Part::body, [&](std::uint32_t i) {
             const Body& body = scene_.bodies[i];
             const SymmetricMatrix& inertia = scene_.descriptions[i].properties.inertia;
-            const std::int64_t mass = mass_in(heaviest_, body);
+            const std::int64_t mass = scene_.figure_masses[i];
             const Beside beside(holder, body, rate_);
             const auto twice_energy = [&](const Vec3& position, const Quaternion& orientation) {
                 const Motion motion = beside.motion(position, orientation);
@@ -160,7 +160,7 @@ private:
         const Body& b = scene_.bodies[joint.description.body_b];
         const std::int64_t work = std::max<std::int64_t>(work_of_drive(joint, a, b), 0);
         const Body& lighter = heavier(b.effective_inverse_mass(), a.effective_inverse_mass()) ? a : b;
-        return fixed::multiply_signed(2 * work, mass_in(heaviest_, lighter));
+        return fixed::multiply_signed(2 * work, mass_in(range_.heaviest, lighter));
     }
 
     void slow_down(const Body& holder, std::int64_t factor) {
@@ -183,7 +183,6 @@ private:
     RigidScene& scene_;
     const FigureRange& range_;
     const MotionRate& rate_;
-    const InverseMass& heaviest_;
 };
 
 } // namespace

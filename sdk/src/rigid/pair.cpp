@@ -97,6 +97,10 @@ PairShares pair_shares(const InverseMass& a, const InverseMass& b) {
     return {share_of(a, greater), share_of(b, greater)};
 }
 
+std::int32_t share_in_greater(const InverseMass& a, const InverseMass& b) {
+    return share_of(a, heavier(a, b) ? b : a);
+}
+
 Inverse invert(std::int64_t weight) {
     const auto w = static_cast<std::uint64_t>(weight);
     const int zeros = std::countl_zero(w);

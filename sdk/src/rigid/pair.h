@@ -28,6 +28,8 @@ struct PairShares {
 bool heavier(const InverseMass& a, const InverseMass& b);
 // Both zero where both are infinitely heavy.
 PairShares pair_shares(const InverseMass& a, const InverseMass& b);
+// The first one's alone.
+std::int32_t share_in_greater(const InverseMass& a, const InverseMass& b);
 
 // From 30 fraction bits, positive, to what divides by it: 1/W = mantissa · 2^-shift with W in units of one.
 struct Inverse {
@@ -99,6 +101,8 @@ inline std::int64_t shifted(std::int64_t value, int shift) {
 struct Move {
     fixed::Vec3 shift{0, 0, 0};     // World
     fixed::Vec3 half_turn{0, 0, 0}; // half_turn_fraction_bits
+
+    friend constexpr bool operator==(const Move&, const Move&) = default;
 };
 
 inline void add_move(const Move& more, Move& sum) {

@@ -213,6 +213,8 @@ void RigidSubstep::carry_pushes_on() {
         for_each_figure(bundle, [this](const FigureRange& figure) { push_contacts_again(figure); });
         solve_trees(bundle);
     });
+    static_cast<void>(scene_.substep_motions.resize(scene_.bodies.size())); // within their room
+    in_figures([this](const FigureRange& figure) { measure_motions(scene_, figure); });
     const std::int64_t least_speed = 2 * least_approach_;
     static_cast<void>(scene_.figure_shares.resize(scene_.figure_ranges.size())); // within its room
     in_figures([&](const FigureRange& figure) {

@@ -35,9 +35,13 @@ inline fixed::Vec3 to_turn_motion(const Body& body, const fixed::Vec3& half_turn
     return limited_motion({part(half_turn.x), part(half_turn.y), part(half_turn.z)});
 }
 
-// Of one kilogram with this inertia, 52 fraction bits.
+// Of one kilogram with this inertia, 52 fraction bits. Motions are so short that 64 bits hold their products.
 inline std::int64_t product(const SymmetricMatrix& inertia, const Motion& p, const Motion& q) {
-    const fixed::Vec3 turn = multiply(inertia, q.turn);
+    const auto row = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+        return fixed::shift_right_rounded(x * q.turn.x + y * q.turn.y + z * q.turn.z, 30);
+    };
+    const fixed::Vec3 turn{row(inertia.xx, inertia.xy, inertia.xz), row(inertia.xy, inertia.yy, inertia.yz),
+                           row(inertia.xz, inertia.yz, inertia.zz)};
     return p.shift.x * q.shift.x + p.shift.y * q.shift.y + p.shift.z * q.shift.z + p.turn.x * turn.x +
            p.turn.y * turn.y + p.turn.z * turn.z;
 }
