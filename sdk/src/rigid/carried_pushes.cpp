@@ -82,7 +82,7 @@ public:
             }
         });
         for (const Part kind : {Part::contact, Part::shared_contact}) {
-            for_each(kind, [&](std::uint32_t i) {
+            for_each_acting(scene_, range_, kind, [&](std::uint32_t i) {
                 Contact& contact = scene_.contacts[i];
                 carry_more(contact,
                            {scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other)}, share);
@@ -142,14 +142,14 @@ private:
         std::uint32_t a = UINT32_MAX;
         std::uint32_t other = UINT32_MAX;
         const auto finish = [&] {
-            if (!(move == Move{})) { // most only come near each other
+            if (a != UINT32_MAX) {
                 const std::uint32_t neighbour = scene_.figures[a] == figure() ? other : a;
                 const Body& body = scene_.bodies[neighbour];
                 add_products(neighbour, mass_in(range_.heaviest, body), motion_of_move(body, move),
                              scene_.substep_motions[neighbour]);
             }
         };
-        for_each(Part::shared_contact, [&](std::uint32_t i) {
+        for_each_acting(scene_, range_, Part::shared_contact, [&](std::uint32_t i) {
             const Contact& contact = scene_.contacts[i];
             const ContactKey& key = contact.key;
             if (key.body_a != a || key.other != other) {

@@ -28,6 +28,15 @@ void for_each_part(const RigidScene& scene, const FigureRange& figure, Part kind
         use(index_of(scene.figure_parts[i]));
     }
 }
+// Of its contacts of one kind, of those that act in this substep.
+template <typename Use>
+void for_each_acting(const RigidScene& scene, const FigureRange& figure, Part kind, const Use& use) {
+    for_each_part(scene, figure, kind, [&](std::uint32_t i) {
+        if (scene.contacts_act[i] != 0) {
+            use(i);
+        }
+    });
+}
 template <typename Use>
 void for_each_part_back(const RigidScene& scene, const FigureRange& figure, Part kind, const Use& use) {
     const auto k = static_cast<std::size_t>(kind);

@@ -101,8 +101,6 @@ inline std::int64_t shifted(std::int64_t value, int shift) {
 struct Move {
     fixed::Vec3 shift{0, 0, 0};     // World
     fixed::Vec3 half_turn{0, 0, 0}; // half_turn_fraction_bits
-
-    friend constexpr bool operator==(const Move&, const Move&) = default;
 };
 
 inline void add_move(const Move& more, Move& sum) {

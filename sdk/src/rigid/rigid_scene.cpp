@@ -10,11 +10,11 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       descriptions(allocator), jointed(allocator), ticks(allocator), collider_bodies(allocator),
       pieces(allocator), piece_starts(allocator), travels(allocator), overlaps(allocator), boxed(allocator),
       pairs(allocator), sorting(allocator), found(allocator), found_order(allocator), contacts(allocator),
-      contact_points(allocator), contact_moves(allocator), next_memories(allocator), islands(allocator),
-      tree_roots(allocator), tree_links(allocator), tree_bodies(allocator), tree_joints(allocator),
-      articulated(allocator), trees(allocator), held_joints(allocator), figures(allocator),
-      figure_parts(allocator), figure_ranges(allocator), figure_bundles(allocator), wide_bodies(allocator),
-      wide_joints(allocator), shared_contacts(allocator), figure_shares(allocator),
+      contact_points(allocator), contacts_act(allocator), contact_moves(allocator), next_memories(allocator),
+      islands(allocator), tree_roots(allocator), tree_links(allocator), tree_bodies(allocator),
+      tree_joints(allocator), articulated(allocator), trees(allocator), held_joints(allocator),
+      figures(allocator), figure_parts(allocator), figure_ranges(allocator), figure_bundles(allocator),
+      wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator), figure_shares(allocator),
       substep_motions(allocator), figure_masses(allocator), figures_changed(allocator),
       strained_figures(allocator), figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator),
       is_coupled(allocator), coupled(allocator), object_pairs(allocator), object_impulses(allocator),
@@ -38,8 +38,9 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         overlaps.reserve(static_cast<std::uint32_t>(boxes)) && boxed.reserve(boxes) &&
         pairs.reserve(pair_capacity(body_count)) && contacts.reserve(contact_capacity(body_count)) &&
         contact_points.reserve(greatest_point_count * contact_capacity(body_count)) &&
-        contact_moves.reserve(body_count + 1) && found.reserve(contact_capacity(body_count)) &&
-        found_order.reserve(contact_capacity(body_count)) && memories.reserve(contact_capacity(body_count)) &&
+        contacts_act.reserve(contact_capacity(body_count)) && contact_moves.reserve(body_count + 1) &&
+        found.reserve(contact_capacity(body_count)) && found_order.reserve(contact_capacity(body_count)) &&
+        memories.reserve(contact_capacity(body_count)) &&
         next_memories.reserve(contact_capacity(body_count)) && loaded_bodies.reserve(body_count) &&
         islands.reserve(body_count) && figures.reserve(body_count) && tree_roots.reserve(body_count) &&
         tree_bodies.reserve(body_count) && articulated.reserve(body_count) &&

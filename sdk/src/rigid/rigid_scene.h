@@ -90,7 +90,10 @@ struct RigidScene {
     Array<std::uint32_t> found_order;
     Array<Contact> contacts;
     Array<ContactPoint> contact_points; // contact by contact
-    Array<Move> contact_moves;          // by body, of a contact sweep; and one that stays zero
+    // By contact: whether any of its points is active in this substep. More than half only come near, and
+    // would push the others' numbers out of the cache if each stage looked at them.
+    Array<std::uint8_t> contacts_act;
+    Array<Move> contact_moves; // by body, of a contact sweep; and one that stays zero
     Array<ContactMemory> next_memories;
     Array<std::uint32_t> islands; // by body: towards the least index in its island
     // Of rigid/articulation.h.

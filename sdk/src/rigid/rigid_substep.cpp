@@ -60,11 +60,11 @@ ContactBodies RigidSubstep::bodies_of(const Contact& contact) {
     return {scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other)};
 }
 
-// Each by itself: use(contact).
+// Each by itself: use(contact, index).
 template <typename Use>
 void RigidSubstep::in_contacts(const Use& use) {
     run_each(team_, scene_.contacts.size(), contacts_a_block,
-             [&](std::uint32_t i, std::uint32_t) { use(scene_.contacts[i]); });
+             [&](std::uint32_t i, std::uint32_t) { use(scene_.contacts[i], i); });
 }
 
 // use(bundle)
@@ -141,7 +141,7 @@ void RigidSubstep::solve_trees(const FigureBundle& bundle) {
 }
 
 void RigidSubstep::begin(std::uint32_t substep) {
-    in_contacts([&](Contact& contact) {
+    in_contacts([&](Contact& contact, std::uint32_t) {
         if (contact.every_substep && substep > 1) {
             find_points_again(world_, contact);
         }
@@ -208,7 +208,11 @@ void RigidSubstep::carry_pushes_on() {
             });
         });
     });
-    in_contacts([this](Contact& contact) { make_rows(contact, bodies_of(contact)); });
+    static_cast<void>(scene_.contacts_act.resize(scene_.contacts.size())); // within its room
+    in_contacts([this](Contact& contact, std::uint32_t i) {
+        make_rows(contact, bodies_of(contact));
+        scene_.contacts_act[i] = contact.active_count != 0 ? 1 : 0;
+    });
     in_bundles([this](const FigureBundle& bundle) {
         for_each_figure(bundle, [this](const FigureRange& figure) { push_contacts_again(figure); });
         solve_trees(bundle);
@@ -228,7 +232,7 @@ void RigidSubstep::carry_pushes_on() {
 
 // Each body those that are its figure's: the other one of a shared contact may be at work.
 void RigidSubstep::push_contacts_again(const FigureRange& figure) {
-    for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) {
+    for_each_acting(scene_, figure, Part::contact, [this](std::uint32_t i) {
         Contact& contact = scene_.contacts[i];
         const ContactBodies bodies = bodies_of(contact);
         if (bodies.a.is_awake()) {
@@ -239,7 +243,7 @@ void RigidSubstep::push_contacts_again(const FigureRange& figure) {
         }
     });
     const std::uint32_t own = name_of(scene_, figure);
-    for_each_part(scene_, figure, Part::shared_contact, [&](std::uint32_t i) {
+    for_each_acting(scene_, figure, Part::shared_contact, [&](std::uint32_t i) {
         Contact& contact = scene_.contacts[i];
         const bool is_a = scene_.figures[contact.key.body_a] == own;
         carry_on(contact, is_a, move_of(is_a ? contact.key.body_a : contact.key.other));
@@ -248,6 +252,9 @@ void RigidSubstep::push_contacts_again(const FigureRange& figure) {
 }
 
 void RigidSubstep::measure_contact(std::uint32_t index) {
+    if (scene_.contacts_act[index] == 0) {
+        return;
+    }
     Contact& contact = scene_.contacts[index];
     measure(contact, bodies_of(contact));
 }
@@ -258,6 +265,9 @@ Move& RigidSubstep::move_of(std::uint32_t other) {
 }
 
 void RigidSubstep::project_contact(std::uint32_t index, bool back) {
+    if (scene_.contacts_act[index] == 0) {
+        return;
+    }
     Contact& contact = scene_.contacts[index];
     project(contact, {move_of(contact.key.body_a), move_of(contact.key.other)}, back);
 }
@@ -346,7 +356,11 @@ void RigidSubstep::mark_strained(std::uint32_t body) {
 // What something stops that might pass it, or that it might pass, and that goes on by more than a centimetre.
 void RigidSubstep::mark_hard_impacts() {
     constexpr std::int64_t hard = (std::int64_t{1} << world_fraction_bits) / 100;
-    for (const Contact& contact : scene_.contacts) {
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
+        if (scene_.contacts_act[i] == 0) {
+            continue;
+        }
+        const Contact& contact = scene_.contacts[i];
         const ContactBodies bodies = bodies_of(contact);
         if (!contact.fast || (bodies.a.jointed && bodies.b.jointed) || !closes(contact, bodies, hard)) {
             continue;
@@ -469,7 +483,7 @@ void RigidSubstep::finish() {
         }
     });
     if (world_.event_log.wants_contacts()) {
-        in_contacts([this](Contact& contact) { add_up_pushes(contact, rate_); });
+        in_contacts([this](Contact& contact, std::uint32_t) { add_up_pushes(contact, rate_); });
     }
     if (any_restitution_) {
         for (Contact& contact : scene_.contacts) {
@@ -477,7 +491,9 @@ void RigidSubstep::finish() {
         }
     }
     const auto undo = [this](std::uint32_t i) {
-        undo_overlap(scene_.contacts[i], bodies_of(scene_.contacts[i]), rate_);
+        if (scene_.contacts_act[i] != 0) {
+            undo_overlap(scene_.contacts[i], bodies_of(scene_.contacts[i]), rate_);
+        }
     };
     in_figures([&](const FigureRange& figure) {
         for_each_joint(figure, [](Joint& joint, Body& a, Body& b) {
