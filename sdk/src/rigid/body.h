@@ -65,6 +65,11 @@ struct Body : BodyState {
     std::int32_t inverse_shift;
     SymmetricMatrix inverse_inertia; // in its own axes
 
+    // What every row reads stands beside that.
+    fixed::Matrix3 rotation;       // of `orientation`
+    SymmetricMatrix world_inverse; // inverse_inertia in world axes at the predicted pose
+    bool jointed;                  // joints hold it
+
     // For views: at the tick before.
     fixed::Vec3 previous_position;
     fixed::Rotation previous_rotation;
@@ -75,7 +80,6 @@ struct Body : BodyState {
     // Of the tick and the substep at work.
     bool slept;          // at the beginning of the tick
     std::int64_t struck; // asleep: how fast particles would have made it, World m/s
-    bool jointed;        // joints hold it
     bool touched;        // by a contact that pushed at the end of the tick
     bool squeezed;       // deep in something else, at the beginning of the last substep
     bool figure_touched; // the least body of a figure: any of its bodies is
@@ -87,8 +91,6 @@ struct Body : BodyState {
     Quaternion predicted_orientation;
     fixed::Vec3 uncarried_position; // before anything that was pushed in the last substep was pushed again
     Quaternion uncarried_orientation;
-    fixed::Matrix3 rotation;       // of `orientation`
-    SymmetricMatrix world_inverse; // inverse_inertia in world axes at the predicted pose
 
     bool is_dynamic() const { return inverse_mass.mantissa != 0; }
     bool is_awake() const { return is_dynamic() && asleep == 0; }
