@@ -70,6 +70,46 @@ TEST_CASE("99 segments with 1 : 10,000 at the end stretch by less than 1e-4 at 1
     CHECK(worst_stretch_of_a_swing(long_rope(1e4, LKS_ROPE_SWEPT), 10) > 1);
 }
 
+namespace {
+
+// At the end of so long that it hangs still.
+double stretch_at_rest(const Chain& chain, const lks_world_def& def) {
+    const Asset asset = chain.build();
+    World world(def);
+    lks_object_def object_def = support::object_def(asset, lks_transform_identity());
+    object_def.linear_damping = LKS_FIXED(3);
+    const lks_object_id object = world.add(object_def);
+    world.pin(object, 0);
+    world.step(20 * std::uint64_t{def.tick_rate_hz});
+    return worst_stretch(world, object, chain);
+}
+
+} // namespace
+
+// What the choice between sweeping and solving at once is by.
+TEST_CASE("a swept rope that hangs is stretched as the square of its substeps and as its iterations") {
+    struct Row {
+        std::uint32_t rate, substeps, iterations;
+    };
+    for (const Row& row : {Row{60, 20, 1}, {60, 5, 1}, {30, 20, 1}, {60, 20, 4}, {60, 5, 16}}) {
+        for (const double end : {1.0, 30.0}) {
+            Chain chain;
+            chain.segments = 40;
+            chain.direction = {0, -1, 0};
+            chain.end_mass = end;
+            chain.solver = LKS_ROPE_SWEPT;
+            const double substeps_per_second = row.rate * row.substeps;
+            const double load = 39 + end;
+            const double expected =
+                2 * 9.81 * load * 20 / (substeps_per_second * substeps_per_second * row.iterations);
+            const double measured = stretch_at_rest(chain, world_def(row.rate, row.substeps, row.iterations));
+            std::printf("%u Hz x %u x %u, 1:%g at the end: %.3e, expected %.3e\n", row.rate, row.substeps,
+                        row.iterations, end, measured, expected);
+            CHECK(measured == doctest::Approx(expected).epsilon(0.1));
+        }
+    }
+}
+
 TEST_CASE("stretch of a rope by mass ratio and substeps, solved at once and swept") {
     struct Row {
         double ratio;

@@ -51,6 +51,7 @@ constexpr Rate rates[] = {{10, 1, 6e4},  {10, 10, 1e3}, {10, 100, 30},    {30, 1
 void let_go(std::uint32_t segments, double end, const Rate& rate) {
     Chain chain;
     chain.segments = segments;
+    chain.solver = LKS_ROPE_DIRECT;
     chain.particle_mass = 0.01;
     chain.end_mass = 0.01 * end;
     const Asset asset = chain.build();

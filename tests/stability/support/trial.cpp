@@ -36,7 +36,10 @@ lks_vec3 fixed_of(const Vector& v) {
 }
 
 // The SDK's rule (docs/ropes.md).
-bool is_solved_at_once(const reference::Model& rope) {
+bool is_solved_at_once(const reference::Model& rope, std::uint32_t solver) {
+    if (solver != LKS_ROPE_AUTOMATIC) {
+        return solver == LKS_ROPE_DIRECT;
+    }
     double mass = 0;
     for (const double of_point : rope.masses) {
         mass += of_point;
@@ -51,7 +54,7 @@ bool is_solved_at_once(const reference::Model& rope) {
 reference::Model model_for(const support::World& world, lks_object_id object, const Subject& subject) {
     reference::Model model = reference::model_of(world, object, *subject.asset, subject.transform.position,
                                                  subject.masses, subject.materials);
-    if (subject.rope && is_solved_at_once(model)) {
+    if (subject.rope && is_solved_at_once(model, subject.solver)) {
         model.chain = segments_of(model.edges);
     }
     return model;
@@ -75,6 +78,7 @@ Subject subject_of(const support::Chain& chain, const support::Asset& asset) {
     subject.masses.assign(asset.vertex_count(), chain.particle_mass);
     subject.materials = {chain.stretch, support::off, support::off};
     subject.rope = true;
+    subject.solver = chain.solver;
     return subject;
 }
 

@@ -22,10 +22,11 @@ struct Subject {
     lks_transform transform = lks_transform_identity();
     support::Vector velocity{};
     double linear_damping = 0;
-    double radius = 0;            // of a particle
-    double friction = 1;          // of the asset
-    double tolerance = 0.05;      // of the stretch that counts as recovered
-    bool rope = false;            // automatic: the twin solves it at once where the SDK does
+    double radius = 0;                         // of a particle
+    double friction = 1;                       // of the asset
+    double tolerance = 0.05;                   // of the stretch that counts as recovered
+    bool rope = false;                         // the twin solves it at once where the SDK does
+    std::uint32_t solver = LKS_ROPE_AUTOMATIC; // that a rope asks for
     support::Vector twin_place{}; // how far from its origin the twin has it; the SDK does not care
 };
 
