@@ -33,10 +33,10 @@ Projections::Work Projections::work_of(lks::Object* const* objects, std::uint32_
     work.places.resize(count);
     work.scratch.set_allocator(world_->allocator);
     if (!work.distances.reserve(object.asset().batches.size()) ||
-        !work.scratch.reserve(lks::row_words(object.asset()))) {
+        !work.scratch.reserve(lks::row_words(object.asset(), object.coefficients()))) {
         throw std::bad_alloc();
     }
-    if (is_swept_in_rows(*world_->kernels, object.asset())) {
+    if (is_swept_in_rows(*world_->kernels, object.asset(), object.coefficients())) {
         work.particles = object.count();
         work.rows.emplace(object, work.scratch.data());
     }

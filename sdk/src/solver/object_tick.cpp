@@ -69,7 +69,7 @@ public:
     }
 
     void prepare_batches() {
-        if (is_swept_in_rows(*world_.kernels, asset_)) {
+        if (is_swept_in_rows(*world_.kernels, asset_, coefficients_)) {
             rows_.emplace(object_, scratch_.rows.data());
         }
         prepare_distances(asset_, coefficients_, rows_ ? rows_->arrays() : distance_arrays(),

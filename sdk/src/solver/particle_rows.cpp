@@ -9,12 +9,12 @@ namespace {
 // With fewer, what taking them costs is more than what they save.
 constexpr std::uint32_t least_constraints = 192;
 
-bool gains_by_rows(const lks_asset& asset) {
+bool gains_by_rows(const lks_asset& asset, const Coefficients& coefficients) {
     std::uint32_t in_runs = 0;
     for (const Batch& batch : asset.batches) {
         in_runs += batch.first_single - batch.first;
     }
-    return asset.chain.empty() && asset.constraint_count() >= least_constraints &&
+    return coefficients.chain.empty() && asset.constraint_count() >= least_constraints &&
            in_runs < asset.constraint_count() / 2;
 }
 
@@ -25,14 +25,14 @@ std::size_t words(const lks_asset& asset) {
 
 } // namespace
 
-bool is_swept_in_rows(const Kernels& kernels, const lks_asset& asset) {
-    return kernels.rows.take != nullptr && gains_by_rows(asset);
+bool is_swept_in_rows(const Kernels& kernels, const lks_asset& asset, const Coefficients& coefficients) {
+    return kernels.rows.take != nullptr && gains_by_rows(asset, coefficients);
 }
 
-std::size_t row_words(const lks_asset& asset) {
+std::size_t row_words(const lks_asset& asset, const Coefficients& coefficients) {
     const bool damped = std::any_of(std::begin(asset.families), std::end(asset.families),
                                     [](const Family& family) { return family.damping.mantissa != 0; });
-    return gains_by_rows(asset) ? (damped ? 2 : 1) * words(asset) : 0;
+    return gains_by_rows(asset, coefficients) ? (damped ? 2 : 1) * words(asset) : 0;
 }
 
 ParticleRows::ParticleRows(Object& object, std::int64_t* scratch)

@@ -12,10 +12,10 @@
 
 namespace lks {
 
-bool is_swept_in_rows(const Kernels& kernels, const lks_asset& asset);
+bool is_swept_in_rows(const Kernels& kernels, const lks_asset& asset, const Coefficients& coefficients);
 
 // How many numbers the rows of any object of this asset take.
-std::size_t row_words(const lks_asset& asset);
+std::size_t row_words(const lks_asset& asset, const Coefficients& coefficients);
 
 // One object's, in scratch of row_words().
 class ParticleRows {

@@ -102,6 +102,19 @@ const KnownAsset* lks_world::find_asset(std::uint64_t fingerprint) const {
     return nullptr;
 }
 
+bool lks_world::reserve_scratch(const lks_asset& asset, const Coefficients& coefficients) {
+    const lks::ChainCoefficients& chain = coefficients.chain;
+    for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
+        if (!scratch[worker].distances.reserve(asset.batches.size()) ||
+            !scratch[worker].rows.reserve(lks::row_words(asset, coefficients)) ||
+            !scratch[worker].chain.reserve(chain.empty() ? 0 : lks::ChainWork::words(chain.count())) ||
+            !scratch[worker].anchors.reserve(asset.tethers.anchors.size())) {
+            return false;
+        }
+    }
+    return true;
+}
+
 const KnownAsset* lks_world::know_asset(const lks_asset& asset) {
     if (const KnownAsset* known = find_asset(asset.fingerprint)) {
         return known;
@@ -109,17 +122,9 @@ const KnownAsset* lks_world::know_asset(const lks_asset& asset) {
     if (assets.size() == assets.capacity() && !assets.reserve(std::max<std::size_t>(8, 2 * assets.size()))) {
         return nullptr;
     }
-    for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
-        if (!scratch[worker].distances.reserve(asset.batches.size()) ||
-            !scratch[worker].rows.reserve(lks::row_words(asset)) ||
-            !scratch[worker].chain.reserve(asset.chain.empty() ? 0
-                                                               : lks::ChainWork::words(asset.chain.size())) ||
-            !scratch[worker].anchors.reserve(asset.tethers.anchors.size())) {
-            return nullptr;
-        }
-    }
     auto* coefficients = lks::create<Coefficients>(allocator, allocator);
-    if (coefficients == nullptr || !coefficients->build(asset, rate)) {
+    if (coefficients == nullptr || !coefficients->build(asset, rate) ||
+        !reserve_scratch(asset, *coefficients)) {
         lks::destroy(allocator, coefficients);
         return nullptr;
     }

@@ -99,6 +99,8 @@ struct lks_world {
     const lks::KnownAsset* find_asset(std::uint64_t fingerprint) const;
     // Room for so many colliders, in every worker's scratch too. False: no memory.
     [[nodiscard]] bool reserve_colliders(std::size_t count);
+    // Every worker's, for objects of such an asset. False: no memory.
+    [[nodiscard]] bool reserve_scratch(const lks_asset& asset, const lks::Coefficients& coefficients);
     // The asset among the known ones, added if it is new. Null: no memory.
     const lks::KnownAsset* know_asset(const lks_asset& asset);
     // Those known last, until `count` are left.
