@@ -70,6 +70,14 @@ TEST_CASE("99 segments with 1 : 10,000 at the end stretch by less than 1e-4 at 1
     CHECK(worst_stretch_of_a_swing(long_rope(1e4, LKS_ROPE_SWEPT), 10) > 1);
 }
 
+TEST_CASE("20 segments of a rope that chooses for itself stretch by less than 0.2 % at one substep") {
+    Chain chain;
+    chain.segments = 20;
+    CHECK(worst_stretch_of_a_swing(chain, 1) <= 2e-3);
+    chain.solver = LKS_ROPE_SWEPT;
+    CHECK(worst_stretch_of_a_swing(chain, 1) > 2);
+}
+
 namespace {
 
 // At the end of so long that it hangs still.

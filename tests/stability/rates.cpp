@@ -46,12 +46,12 @@ constexpr Rate rates[] = {{10, 1, 6e4},  {10, 10, 1e3}, {10, 100, 30},    {30, 1
                           {60, 5, 200},  {60, 20, 20},  {60, 100, 2},     {240, 1, 300}, {240, 20, 4},
                           {1000, 1, 25}, {1000, 10, 1}, {1000, 100, 0.25}};
 
-// Two metres, solved at once, pinned at one end and let go when level. In a substep of 0.1 s it falls by two
-// segments of 40, and by five of 99.
-void let_go(std::uint32_t segments, double end, const Rate& rate) {
+// Two metres, pinned at one end and let go when level. In a substep of 0.1 s it falls by two segments of 40,
+// and by five of 99.
+void let_go(std::uint32_t segments, double end, const Rate& rate, std::uint32_t solver = LKS_ROPE_DIRECT) {
     Chain chain;
     chain.segments = segments;
-    chain.solver = LKS_ROPE_DIRECT;
+    chain.solver = solver;
     chain.particle_mass = 0.01;
     chain.end_mass = 0.01 * end;
     const Asset asset = chain.build();
@@ -63,7 +63,9 @@ void let_go(std::uint32_t segments, double end, const Rate& rate) {
     const double seconds = rate.hz * rate.substeps > 20000 && !long_runs() ? 0.5 : 5;
     trial.run(static_cast<int>(seconds * rate.hz));
     const std::string heavy = end > 1 ? named(", 1:", end, " at the end") : "";
-    const std::string name = named("rope of ", segments, heavy, ", ", rate.hz, " Hz × ", rate.substeps);
+    const std::string automatic = solver == LKS_ROPE_AUTOMATIC ? "automatic " : "";
+    const std::string name =
+        named(automatic, "rope of ", segments, heavy, ", ", rate.hz, " Hz × ", rate.substeps);
     expect_stretch_at_most(name, trial, rate.stretch);
     if (rate.stretch > 5) {
         expect_recovery_within(name, trial, 5);
@@ -82,6 +84,11 @@ constexpr Rate heavy_rope[] = {{10, 1, 0.12},    {10, 10, 0.15},   {10, 100, 5e-
                                {1000, 10, 3e-4}, {1000, 100, 3e-7}};
 constexpr Rate fine_rope[] = {{10, 1, 0.08}, {10, 2, 0.1}, {10, 10, 0.04}, {20, 1, 0.5}, {60, 1, 0.13}};
 constexpr Rate fine_heavy_rope[] = {{10, 1, 330}, {10, 2, 85}, {10, 10, 5e-3}, {20, 1, 85}, {60, 1, 0.13}};
+
+// Swept from 960 substeps a second on, and solved at once below.
+constexpr Rate automatic_rope[] = {{10, 1, 0.12}, {60, 1, 0.18},  {60, 5, 0.09},
+                                   {60, 20, 6},   {60, 100, 0.5}, {240, 1, 0.17},
+                                   {240, 4, 8.5}, {1000, 1, 8},   {1000, 10, 0.25}};
 
 struct BodyRate {
     std::uint32_t hz, substeps;
@@ -142,6 +149,12 @@ TEST_CASE("a rope that is solved at once hangs at any tick rate and any number o
     }
     for (const Rate& rate : fine_heavy_rope) {
         let_go(99, 1e4, rate);
+    }
+}
+
+TEST_CASE("a rope that its world chooses the solver of hangs at any tick rate and any number of substeps") {
+    for (const Rate& rate : automatic_rope) {
+        let_go(20, 1, rate, LKS_ROPE_AUTOMATIC);
     }
 }
 

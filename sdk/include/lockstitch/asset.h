@@ -107,12 +107,13 @@ LKS_API lks_result lks_asset_create_cloth(const lks_cloth_def* def, lks_asset** 
 /* How the stretch of a rope is solved.
  *
  * Swept: one segment after the other, as in cloth. Cheap; the more stretched the finer the rope and the
- * heavier what hangs on it: about 3.5 · g · h² · load / (mass of a point · length of a segment), h being a
- * substep. Direct: all segments at once, exactly, whatever the masses (XPBD eq. 16 and 26), at several times
- * the cost. Automatic: direct where mass of the rope > 400 / m · lightest point · length of its segment and
- * the rope has 2 to LKS_MAX_DIRECT_SEGMENTS segments (sweeps then leave more than 1 % at 60 Hz × 20
- * substeps), else swept. What else hangs on a rope, by attachments, is not known to it: choose direct where
- * that is heavy. docs/ropes.md has cost and error of both. */
+ * heavier what hangs on it: 2 · g · h² · load / (mass of a point · length of a segment · iterations) at rest,
+ * h being a substep, and a few times that in a swing. Direct: all segments at once, exactly, whatever the
+ * masses (XPBD eq. 16 and 26), at several times the cost. Automatic: each world chooses, by its own substeps
+ * and iterations. Direct where mass of the rope > 400 / m · iterations / (1200 / s · h)² · lightest point ·
+ * length of its segment and the rope has 2 to LKS_MAX_DIRECT_SEGMENTS segments (sweeps then leave more than
+ * about 1 %; at 60 Hz × 20 × 1 the limit is 400 / m), else swept. What else hangs on a rope, by attachments,
+ * is not known to it: choose direct where that is heavy. docs/ropes.md has cost and error of both. */
 typedef enum lks_rope_solver {
     LKS_ROPE_AUTOMATIC = 0,
     LKS_ROPE_SWEPT = 1,

@@ -82,8 +82,10 @@ struct lks_asset {
     lks::Array<std::uint32_t> incident_offsets;
     lks::Array<std::uint32_t> incident_constraints;
 
-    // Of a rope that is solved directly: the constraint of each segment, in their order.
+    // Of a rope that may be solved directly (asset/rope_solver.h): the constraint of each segment, in their
+    // order.
     lks::Array<std::uint32_t> chain;
+    lks_rope_solver solver = LKS_ROPE_AUTOMATIC; // that a rope asks for
 
     lks::Tethers tethers;
 

@@ -1,5 +1,5 @@
 // A rope from a length or from a polyline: stretch in two colours, bend between points two apart in two more;
-// and whether its stretch is swept in these colours or solved at once.
+// and the order of its segments where its stretch may be solved at once instead of in colours.
 #include "api/authoring_text.h"
 #include "asset/authoring_masses.h"
 #include "asset/authoring_values.h"
@@ -106,34 +106,10 @@ lks_result check_solver(const Build& build, const lks_rope_def& def) {
     return LKS_OK;
 }
 
-// The lowest mass of a point times the length of a segment that it has, as a share of the rope's mass: below
-// it sweeps leave about 1 % of stretch at 60 Hz × 20 substeps in a rope that hangs by one end
-// (docs/ropes.md).
-constexpr fixed::Scaled easy_load = fixed::Scaled::from_u64(400); // 1/m
-
-bool is_easy(const Build& build) {
-    fixed::Scaled mass{};
-    for (const fixed::Scaled& m : build.masses) {
-        mass = mass + m;
-    }
-    for (std::uint32_t i = 0; i + 1 < build.positions.size(); ++i) {
-        const fixed::Scaled length = fixed::Scaled::from_fixed(
-            static_cast<std::uint64_t>(distance_between(build.positions[i], build.positions[i + 1])),
-            coordinate_fraction_bits);
-        const fixed::Scaled& lighter =
-            build.masses[i] < build.masses[i + 1] ? build.masses[i] : build.masses[i + 1];
-        if (easy_load * lighter * length < mass) {
-            return false;
-        }
-    }
-    return true;
-}
-
-bool is_solved_directly(const Build& build, const lks_rope_def& def) {
+bool may_be_solved_directly(const Build& build, const lks_rope_def& def) {
     const std::size_t segments = build.positions.size() - 1;
-    return def.solver == LKS_ROPE_DIRECT ||
-           (def.solver == LKS_ROPE_AUTOMATIC && def.stretch.enabled != 0 && segments > 1 &&
-            segments <= LKS_MAX_DIRECT_SEGMENTS && !is_easy(build));
+    return def.solver == LKS_ROPE_DIRECT || (def.solver == LKS_ROPE_AUTOMATIC && def.stretch.enabled != 0 &&
+                                             segments > 1 && segments <= LKS_MAX_DIRECT_SEGMENTS);
 }
 
 bool list_chain(lks_asset& asset) {
@@ -178,7 +154,8 @@ lks_result build_rope(Build& build, const lks_rope_def& def) {
     if (const lks_result result = assemble(build); result != LKS_OK) {
         return result;
     }
-    if (is_solved_directly(build, def) && !list_chain(build.asset)) {
+    build.asset.solver = static_cast<lks_rope_solver>(def.solver);
+    if (may_be_solved_directly(build, def) && !list_chain(build.asset)) {
         return build.fail_out_of_memory();
     }
     return LKS_OK;

@@ -27,9 +27,6 @@ constexpr int greatest_stiffness_bits = 58;
 
 bool ChainCoefficients::build(const lks_asset& asset, const Scaled& inverse_stiffness) {
     const auto count = static_cast<std::uint32_t>(asset.chain.size());
-    if (count == 0) {
-        return true;
-    }
     const std::size_t points = std::size_t{count} + 1;
     const std::size_t padded = points + chain_padding;
     if (!particles.resize(points) || !weights.resize(padded) || !weight_shifts.resize(padded) ||

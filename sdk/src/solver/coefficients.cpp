@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "asset/rope_solver.h"
 #include "fixed/formats.h"
 
 namespace lks {
@@ -116,7 +117,8 @@ bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
             update_constraint(asset, rate, none, i, b);
         }
     }
-    return chain.build(asset, terms[LKS_CONSTRAINT_STRETCH].softness);
+    return !is_solved_directly(asset, rate.substeps_per_second, rate.iterations) ||
+           chain.build(asset, terms[LKS_CONSTRAINT_STRETCH].softness);
 }
 
 bool Coefficients::copy(const Coefficients& other) {

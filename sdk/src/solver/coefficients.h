@@ -63,7 +63,7 @@ public:
     Array<std::uint32_t>
         relaxations; // r, Unit, by constraint, padded; empty where one iteration makes it needless
     Array<BatchCoefficients> batches;
-    ChainCoefficients chain; // of a rope that is solved directly; otherwise empty
+    ChainCoefficients chain; // of a rope that is solved directly (asset/rope_solver.h); otherwise empty
 
 private:
     void update_constraint(const lks_asset& asset, const StepRate& rate, const PinnedParticles& pinned,

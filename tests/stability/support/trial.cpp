@@ -36,10 +36,12 @@ lks_vec3 fixed_of(const Vector& v) {
 }
 
 // The SDK's rule (docs/ropes.md).
-bool is_solved_at_once(const reference::Model& rope, std::uint32_t solver) {
+bool is_solved_at_once(const reference::Model& rope, std::uint32_t solver, const lks_world_def& world) {
     if (solver != LKS_ROPE_AUTOMATIC) {
         return solver == LKS_ROPE_DIRECT;
     }
+    const double substeps_per_second = static_cast<double>(world.tick_rate_hz) * world.substeps;
+    const double greatest_swept_load = substeps_per_second * substeps_per_second * world.iterations / 3600;
     double mass = 0;
     for (const double of_point : rope.masses) {
         mass += of_point;
@@ -47,14 +49,15 @@ bool is_solved_at_once(const reference::Model& rope, std::uint32_t solver) {
     return rope.edges.size() > 1 &&
            std::any_of(rope.edges.begin(), rope.edges.end(), [&](const reference::Edge& edge) {
                return edge.family == LKS_CONSTRAINT_STRETCH &&
-                      400 * std::min(rope.masses[edge.a], rope.masses[edge.b]) * edge.rest < mass;
+                      greatest_swept_load * std::min(rope.masses[edge.a], rope.masses[edge.b]) * edge.rest <
+                          mass;
            });
 }
 
 reference::Model model_for(const support::World& world, lks_object_id object, const Subject& subject) {
     reference::Model model = reference::model_of(world, object, *subject.asset, subject.transform.position,
                                                  subject.masses, subject.materials);
-    if (subject.rope && is_solved_at_once(model, subject.solver)) {
+    if (subject.rope && is_solved_at_once(model, subject.solver, subject.world)) {
         model.chain = segments_of(model.edges);
     }
     return model;
