@@ -1,6 +1,5 @@
 // The hash over all of an asset that can influence a simulation, its vertex numbering included.
 #include "asset/build.h"
-#include "asset/rope_solver.h"
 #include "state/hash.h"
 
 namespace lks {
@@ -45,11 +44,7 @@ std::uint64_t compute_fingerprint(const lks_asset& asset) {
         hash.add_u32(asset.constraints[i].b);
         hash.add_i64(asset.rest_lengths[i]);
     }
-    // An automatic rope has the hash that it had before its world's substeps counted.
-    hash.add_u32(is_solved_directly(asset, usual_substeps_per_second, 1) ? 1 : 0);
-    if (asset.solver != LKS_ROPE_AUTOMATIC) {
-        hash.add_u32(static_cast<std::uint32_t>(asset.solver));
-    }
+    hash.add_u32(static_cast<std::uint32_t>(asset.solver));
     if (!asset.tethers.empty()) {
         const Tethers& tethers = asset.tethers;
         hash.add_u32_array(tethers.anchors.data(), tethers.anchors.size());

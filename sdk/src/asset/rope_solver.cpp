@@ -9,7 +9,7 @@ using fixed::Scaled;
 // sweep leaves more than about 1 % of stretch in a rope that hangs by one end (docs/ropes.md). 400/m at 60 Hz
 // × 20 substeps, as 1/h², and as the number of sweeps.
 Scaled greatest_swept_load(std::uint64_t substeps_per_second, std::uint32_t iterations) {
-    constexpr std::uint64_t usual = usual_substeps_per_second * usual_substeps_per_second;
+    constexpr std::uint64_t usual = std::uint64_t{60 * 20} * (60 * 20);
     constexpr std::uint64_t greatest_at_usual = 400; // 1/m
     static_assert(usual % greatest_at_usual == 0);
     return Scaled::ratio(substeps_per_second * substeps_per_second * iterations, usual / greatest_at_usual);

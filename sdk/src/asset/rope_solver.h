@@ -6,8 +6,6 @@
 
 namespace lks {
 
-inline constexpr std::uint64_t usual_substeps_per_second = std::uint64_t{60} * 20;
-
 // As the rope's description asks for, or by how far sweeps would stretch it; never where it lists no chain.
 bool is_solved_directly(const lks_asset& asset, std::uint64_t substeps_per_second, std::uint32_t iterations);
 
