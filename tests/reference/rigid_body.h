@@ -22,7 +22,9 @@ struct MovingBody {
     explicit MovingBody(const RigidBody& from)
         : moves(from.mass > 0), mass(static_cast<Scalar>(from.mass)), inertia(from.inertia),
           position(from.position), orientation(quaternion_of<Scalar>(from.orientation)),
-          velocity(from.velocity), spin(from.spin), rotation(orientation.matrix()) {
+          velocity(from.velocity), spin(from.spin), gravity_factor(static_cast<Scalar>(from.gravity_factor)),
+          linear_damping(static_cast<Scalar>(from.linear_damping)),
+          angular_damping(static_cast<Scalar>(from.angular_damping)), rotation(orientation.matrix()) {
         if (moves) {
             inverse_mass = 1 / mass;
             inverse_inertia = {1 / inertia.x, 1 / inertia.y, 1 / inertia.z};
@@ -39,6 +41,7 @@ struct MovingBody {
     Vec position;
     Quat orientation;
     Vec velocity, spin;
+    Scalar gravity_factor, linear_damping, angular_damping;
     Matrix<Scalar> rotation; // of the orientation
     // Of the substep.
     Matrix<Scalar> world_inverse{}; // at the predicted pose

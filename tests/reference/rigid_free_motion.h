@@ -1,5 +1,5 @@
 // How a body of the rigid reference solver moves by itself in a substep: the implicit midpoint rule for its
-// spin in its own axes, and Cayley's map.
+// spin in its own axes, and Cayley's map, after gravity and damping.
 #pragma once
 
 #include "reference/rigid_body.h"
@@ -19,7 +19,9 @@ public:
         body.start_position = body.position;
         body.start_orientation = body.orientation;
         if (body.moves) {
-            body.velocity = body.velocity + gravity_ * (1 / rate_);
+            const Vec falling = gravity_ * (body.gravity_factor / rate_);
+            body.velocity = (body.velocity + falling) * kept(body.linear_damping);
+            body.spin = body.spin * kept(body.angular_damping);
             if (turns_freely(body)) {
                 // Ω_mid = Ω + I⁻¹(IΩ_mid × hΩ_mid/2)
                 const Vec spin = body.rotation.back(body.spin);
@@ -57,6 +59,9 @@ public:
     }
 
 private:
+    // What a substep leaves of a speed.
+    Scalar kept(Scalar damping) const { return std::max(1 - damping / rate_, Scalar(0)); }
+
     // A radian a substep about each axis, and 1000 rad/s.
     Vec limited(const Vec& spin) const {
         const Scalar most = std::min(rate_, Scalar(1000));

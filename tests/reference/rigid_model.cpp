@@ -57,6 +57,9 @@ RigidBody rigid_body(const lks_body_def& def, const lks_body_shape& shape, doubl
     if (def.kind == LKS_BODY_DYNAMIC) {
         body.mass = mass;
         body.inertia = inertia_of(shape) * mass;
+        body.gravity_factor = support::metres(def.gravity_factor);
+        body.linear_damping = support::metres(def.linear_damping);
+        body.angular_damping = support::metres(def.angular_damping);
         body.velocity = support::metres(def.velocity);
         body.spin = support::metres(def.angular_velocity);
     }

@@ -35,6 +35,8 @@ struct RigidBody {
     Rotation orientation;
     support::Vector velocity;
     support::Vector spin; // in world axes
+    double gravity_factor = 1;
+    double linear_damping = 0, angular_damping = 0; // 1/s
     RigidShape shape;
     RigidSurface surface;
     bool touches_colliders = false;

@@ -10,8 +10,9 @@
 //   - pushes are in kg·m, turns in radians: no shares, no units of length, no clamps but of turns;
 //     directions are as exact as the numbers, where the SDK has 30 fraction bits;
 //   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing;
+//   - what damping keeps of a speed is as exact as the numbers, where the SDK has a multiple of 2^-31;
 //   - the figures' factors are as exact as the numbers, where the SDK has motions of 26 fraction bits.
-// A body has one shape. There are no distance joints, attachments, damping and sleep of bodies, no colliders
+// A body has one shape. There are no distance joints, attachments and sleep of bodies, no colliders
 // that move, and no iterations more after hard impacts.
 #pragma once
 
