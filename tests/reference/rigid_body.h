@@ -106,11 +106,12 @@ public:
     using Body = MovingBody<Scalar>;
 
     PushRow() = default;
-    PushRow(const Vec& direction, const Body& a, const Vec& lever_a, const Body& b, const Vec& lever_b)
+    PushRow(const Vec& direction, const Body& a, const Vec& lever_a, const Body& b, const Vec& lever_b,
+            Scalar softness = 0)
         : direction_(direction), mass_a_(a.inverse_mass), mass_b_(b.inverse_mass),
           arm_a_(cross(lever_a, direction)), arm_b_(cross(lever_b, direction)),
           turn_a_(a.world_inverse * arm_a_), turn_b_(b.world_inverse * arm_b_),
-          weight_(mass_a_ + mass_b_ + arm_a_.dot(turn_a_) + arm_b_.dot(turn_b_)) {}
+          weight_(mass_a_ + mass_b_ + arm_a_.dot(turn_a_) + arm_b_.dot(turn_b_) + softness) {}
 
     // What it takes to part them by this length, in kg·m; or by this speed, in N·s.
     Scalar push_for(Scalar length) const { return length / weight_; }

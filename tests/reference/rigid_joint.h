@@ -1,12 +1,14 @@
 // A joint of the rigid reference solver: where its points are, what it does not let turn, and its limits. The
 // points of trees are brought together by the solver, all joints at once; those of soft joints, and of those
-// that close loops, by a block each. Soft ones begin each substep from nothing, as XPBD has them.
+// that close loops, by a block each. Soft ones and distances begin each substep from nothing, as XPBD has
+// them.
 #pragma once
 
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "reference/rigid_distance.h"
 #include "reference/rigid_joint_drive.h"
 #include "reference/rigid_joint_points.h"
 #include "reference/rigid_limits.h"
@@ -27,7 +29,8 @@ public:
           point_b_(from.point_b), frame_a_(quaternion_of<Scalar>(from.frame_a)),
           frame_b_(quaternion_of<Scalar>(from.frame_b)),
           points_softness_(from.compliance, from.damping, rate),
-          turn_softness_(from.angular_compliance, 0, rate), points_(points_softness_), drive_(from, rate) {}
+          turn_softness_(from.angular_compliance, 0, rate), points_(points_softness_),
+          distance_(from, points_softness_), drive_(from, rate) {}
 
     std::size_t a, b;
     bool in_tree = false; // its points are solved there
@@ -43,14 +46,16 @@ public:
         tension = size_of(push);
         push = in_tree ? Vec{} : push;
         begin_ = offset(body_a, body_b);
-        start = is_soft() ? Vec{} : begin_;
+        start = keeps_push() ? begin_ : Vec{};
         turn_start_ = keeps_turn() ? turned_apart(body_a, body_b) : Vec{};
         limits.begin(body_a, body_b);
         drive_.begin(body_a, body_b);
     }
 
-    // Trees are of rigid ones.
-    bool is_soft() const { return points_softness_.is_soft() || turn_softness_.is_soft(); }
+    // From substep to substep. Trees are of those that do.
+    bool keeps_push() const {
+        return !is_distance() && !points_softness_.is_soft() && !turn_softness_.is_soft();
+    }
 
     // How far b's point is from a's.
     Vec offset(const Body& body_a, const Body& body_b) const {
@@ -73,8 +78,8 @@ public:
     void prepare(const Body& body_a, const Body& body_b) {
         limits.prepare();
         drive_.prepare();
-        push = is_soft() ? Vec{} : push;
-        if (!in_tree || drive_.is_motor()) {
+        push = keeps_push() ? push : Vec{};
+        if (!is_distance() && (!in_tree || drive_.is_motor())) {
             points_.factor(body_a, lever_a, body_b, lever_b);
         }
         if (holds_turn()) {
@@ -178,7 +183,7 @@ public:
     }
     // The same of its points.
     void undo_points(Body& body_a, Body& body_b) const {
-        if (!is_soft()) {
+        if (keeps_push()) {
             push_apart(body_a, body_b, points_.pushed_by(offset(body_a, body_b)) * Scalar(-1));
         }
     }
@@ -195,7 +200,8 @@ private:
         return length * (inverse.x + inverse.y + inverse.z - along.dot(products(inverse, along)));
     }
 
-    bool holds_turn() const { return kind_ != LKS_JOINT_BALL; }
+    bool is_distance() const { return kind_ == LKS_JOINT_DISTANCE; }
+    bool holds_turn() const { return kind_ == LKS_JOINT_HINGE || kind_ == LKS_JOINT_FIXED; }
     bool keeps_turn() const { return !turn_softness_.is_soft(); }
 
     void push_apart(Body& body_a, Body& body_b, const Vec& more) const {
@@ -203,6 +209,11 @@ private:
     }
     void project_points(Body& body_a, Body& body_b) {
         const Vec apart = offset(body_a, body_b);
+        if (is_distance()) {
+            distance_.project(body_a, body_a.rotation * point_a_, body_b, body_b.rotation * point_b_, apart,
+                              begin_, push);
+            return;
+        }
         const Vec before = push;
         push = points_.next_push(apart - start, apart - begin_, before);
         push_apart(body_a, body_b, push - before);
@@ -295,6 +306,7 @@ private:
     Quat frame_a_, frame_b_;
     Softness<Scalar> points_softness_, turn_softness_;
     JointPoints<Scalar> points_;
+    JointDistance<Scalar> distance_;
     JointDrive<Scalar> drive_;
     Vec turn_; // b against a: carried from substep to substep
     // Of the substep.

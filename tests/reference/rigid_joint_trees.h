@@ -32,13 +32,13 @@ public:
 
     explicit JointTrees(RigidParts<Scalar>& parts) : bodies_(parts.bodies), joints_(parts.joints) {}
 
-    // Soft joints are left out, and so are those that close loops.
+    // Soft joints and distances are left out, and so are those that close loops.
     void find() {
         std::vector<std::size_t> roots(bodies_.size());
         std::iota(roots.begin(), roots.end(), std::size_t{0});
         for (Joint& joint : joints_) {
             const bool joins = bodies_[joint.a].moves && bodies_[joint.b].moves;
-            joint.in_tree = !joint.is_soft() && !(joins && roots[joint.a] == roots[joint.b]);
+            joint.in_tree = joint.keeps_push() && !(joins && roots[joint.a] == roots[joint.b]);
             if (joint.in_tree && joins) {
                 const auto [root, other] = std::minmax(roots[joint.a], roots[joint.b]);
                 std::replace(roots.begin(), roots.end(), std::size_t{other}, std::size_t{root});

@@ -78,6 +78,8 @@ RigidJoint rigid_joint(const lks_joint_def& def, std::size_t a, std::size_t b) {
             radians(def.swing_limit_z < 0 ? def.swing_limit : def.swing_limit_z),
             radians(def.twist_min),
             radians(def.twist_max),
+            support::metres(def.distance_min),
+            support::metres(def.distance_max),
             support::metres(def.compliance),
             support::metres(def.damping),
             support::metres(def.angular_compliance),

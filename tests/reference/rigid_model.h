@@ -50,13 +50,14 @@ struct RigidMotor {
 };
 
 struct RigidJoint {
-    std::uint32_t kind; // lks_joint_kind: ball, hinge or fixed
+    std::uint32_t kind; // lks_joint_kind
     std::size_t a, b;
     support::Vector point_a, point_b; // from the centres of mass, in the bodies' axes
     Rotation frame_a, frame_b;
     // Radians; π, and -π: none.
     double swing_limit, swing_limit_z;
     double twist_min, twist_max;
+    double distance_min = 0, distance_max = 0;          // metres
     double compliance = 0, damping = 0;                 // of the points: m/N, N·s/m
     double angular_compliance = 0, angular_damping = 0; // rad/(N·m), N·m·s
     double limit_compliance = 0, limit_damping = 0;

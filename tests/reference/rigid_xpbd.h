@@ -3,16 +3,16 @@
 //
 // The same substeps in the same order: the implicit midpoint rule for spins, Cayley's map, the points of a
 // tree's joints by one linear solve with the velocities that follow, those of soft joints and of those that
-// close loops by a block each, what hinges and fixed joints don't let turn by another, limits and contacts by
-// rows whose pushes only push, carried pushes with a factor for each figure, impacts before the prediction,
-// and errors undone without speed. What differs:
+// close loops by a block each, distances by a row each, what hinges and fixed joints don't let turn by
+// another, limits and contacts by rows whose pushes only push, carried pushes with a factor for each figure,
+// impacts before the prediction, and errors undone without speed. What differs:
 //   - the points' system is a dense matrix for each tree, where the SDK eliminates it along its tree;
 //   - pushes are in kg·m, turns in radians: no shares, no units of length, no clamps but of turns;
 //     directions are as exact as the numbers, where the SDK has 30 fraction bits;
 //   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing;
 //   - what damping keeps of a speed is as exact as the numbers, where the SDK has a multiple of 2^-31;
 //   - the figures' factors are as exact as the numbers, where the SDK has motions of 26 fraction bits.
-// A body has one shape. There are no distance joints, attachments and sleep of bodies, no colliders
+// A body has one shape. There are no attachments and sleep of bodies, no colliders
 // that move, and no iterations more after hard impacts.
 #pragma once
 
