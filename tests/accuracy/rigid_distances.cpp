@@ -51,6 +51,25 @@ TEST_CASE("a capsule on a rope that goes slack and snaps taut is within 6e-6 m a
     }
 }
 
+TEST_CASE("balls that ropes hold from two sides, one on the other, are within 6e-6 m after ten seconds") {
+    // What one rope pulls, the other may take back; but neither pushes.
+    for (const int substeps : {8, 20}) {
+        RigidScene scene(with_substeps(substeps));
+        const std::size_t left = scene.add_anchor(fixed(-1, 3, 0));
+        const std::size_t right = scene.add_anchor(fixed(1, 3, 0));
+        lks_body_def def = at_rest(fixed(0, 3, 0));
+        def.velocity = fixed(3, 1, 0.5);
+        const std::size_t upper = scene.add(ball_shape(0.1), def);
+        def.velocity = fixed(-2, 2, 0);
+        def.transform.position = fixed(0, 2.5, 0);
+        const std::size_t lower = scene.add(ball_shape(0.15), def);
+        scene.join(distance(0, 1.1), left, upper);
+        scene.join(distance(0, 1.1), right, upper);
+        scene.join(distance(0, 0.5), upper, lower);
+        check_run("ropes" + substeps_name(substeps), scene, {3e-7, 1e-9, 1000}, {6e-6, 1e-9, 300});
+    }
+}
+
 TEST_CASE("a ball that a strut holds off until it slips past is within 3e-6 m after two seconds") {
     for (const int substeps : {8, 20}) {
         RigidScene scene(with_substeps(substeps));
