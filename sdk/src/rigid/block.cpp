@@ -88,8 +88,9 @@ Softness make_softness(std::int64_t compliance, std::int64_t damping, const Scal
 }
 
 std::int64_t soften(const Softness& s, std::int64_t error, std::int64_t motion, std::int64_t push) {
-    return fixed::scale_component(s.error_share, error) + fixed::multiply_shift(push, s.softness, 30) +
-           fixed::scale_component(s.motion_share, motion);
+    return fixed::saturating_add(fixed::saturating_add(fixed::scale_component(s.error_share, error),
+                                                       fixed::multiply_shift(push, s.softness, 30)),
+                                 fixed::scale_component(s.motion_share, motion));
 }
 
 Vec3 soften(const Softness& s, const Vec3& error, const Vec3& motion, const Vec3& push) {

@@ -31,7 +31,7 @@ struct Softness {
 // World m/N and N·s/m.
 Softness make_softness(std::int64_t compliance, std::int64_t damping,
                        const fixed::Scaled& greater_inverse_mass, const StepRate& rate);
-// c·C + α̃/(1+γ)·λ + γ/(1+γ)·Δ.
+// c·C + α̃/(1+γ)·λ + γ/(1+γ)·Δ; saturates.
 std::int64_t soften(const Softness& s, std::int64_t error, std::int64_t motion, std::int64_t push);
 fixed::Vec3 soften(const Softness& s, const fixed::Vec3& error, const fixed::Vec3& motion,
                    const fixed::Vec3& push);

@@ -62,14 +62,16 @@ void project_distance(Joint& joint, Body& a, Body& b) {
         joint.push = {0, 0, 0};
         return;
     }
-    error = std::clamp(error, -greatest_step, greatest_step);
     std::int64_t weight = joint.constants.points.softness;
     const Vec3 lever_a = fixed::rotate(a.rotation, d.point_a);
     const Vec3 lever_b = fixed::rotate(b.rotation, d.point_b);
     const RowSide side_a = push_side(a, joint.constants.shares.a, way.direction, lever_a, weight);
     const RowSide side_b = push_side(b, joint.constants.shares.b, way.direction, lever_b, weight);
     const std::int64_t motion = fixed::dot(way.direction, offset - joint.begin);
-    std::int64_t p = -divide(soften(joint.constants.points, error, motion, pushed), invert(weight));
+    // A soft one may be as long as its load makes it: only what its push leaves is limited.
+    const std::int64_t left =
+        std::clamp(soften(joint.constants.points, error, motion, pushed), -greatest_step, greatest_step);
+    std::int64_t p = -divide(left, invert(weight));
     if (!rod) {
         // A rope only pulls, a strut only pushes.
         const std::int64_t total =
