@@ -38,6 +38,13 @@ Asset Chain::build(const lks_allocator& allocator) const {
     return Asset(def);
 }
 
+lks_rope_def straight_rope(std::uint32_t segments, double length) {
+    lks_rope_def def = lks_default_rope_def();
+    def.segments = segments;
+    def.length = length;
+    return def;
+}
+
 Asset loose_points(const std::vector<Vector>& points, const std::vector<double>& masses, double radius) {
     std::vector<double> coordinates;
     for (const Vector& point : points) {

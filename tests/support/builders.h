@@ -32,6 +32,9 @@ struct Chain {
     Asset build(const lks_allocator& allocator = {}) const;
 };
 
+// The default rope in so many segments over a length.
+lks_rope_def straight_rope(std::uint32_t segments, double length);
+
 // Points that nothing holds together.
 Asset loose_points(const std::vector<Vector>& points, const std::vector<double>& masses, double radius = 0);
 

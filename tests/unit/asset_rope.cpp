@@ -6,22 +6,12 @@
 
 using namespace inspection;
 using support::Asset;
-
-namespace {
-
-lks_rope_def straight(std::uint32_t segments, double length) {
-    lks_rope_def def = lks_default_rope_def();
-    def.segments = segments;
-    def.length = length;
-    return def;
-}
-
-} // namespace
+using support::straight_rope;
 
 TEST_CASE("a rope of any number of segments has two colours of stretch and two of bend") {
     for (const std::uint32_t segments : {1u, 2u, 3u, 4u, 5u, 8u, 50u, 63u, 64u, 65u, 1001u}) {
         CAPTURE(segments);
-        const Asset asset(straight(segments, 5));
+        const Asset asset(straight_rope(segments, 5));
         everything_holds(*asset);
         std::set<Pair> stretch, bend;
         for (std::uint32_t i = 0; i < segments; ++i) {
@@ -49,7 +39,7 @@ TEST_CASE("a rope of any number of segments has two colours of stretch and two o
 }
 
 TEST_CASE("a straight rope lies along +x in equal parts from the origin") {
-    const Asset asset(straight(7, 1.3));
+    const Asset asset(straight_rope(7, 1.3));
     for (std::uint32_t i = 0; i <= 7; ++i) {
         const lks::Coordinates& found = (*asset).rest_positions[(*asset).vertex_to_particle[i]];
         CHECK(support::raw_metres(found.x) == doctest::Approx(1.3 * i / 7).epsilon(1e-15));
@@ -105,7 +95,7 @@ TEST_CASE("the rest length of a constraint at the API is the exact one rounded t
 }
 
 TEST_CASE("radius and friction and materials arrive exactly") {
-    lks_rope_def def = straight(10, 1);
+    lks_rope_def def = straight_rope(10, 1);
     def.particle_radius = 0.0625;
     def.friction = 1.5;
     def.stretch = support::soft(0.25, 8);
@@ -119,7 +109,7 @@ TEST_CASE("radius and friction and materials arrive exactly") {
 
 TEST_CASE("a rope that may be solved at once lists its segments in their order") {
     for (const std::uint32_t segments : {1u, 2u, 7u, 64u, 1001u}) {
-        lks_rope_def def = straight(segments, 5);
+        lks_rope_def def = straight_rope(segments, 5);
         if (segments == 1) {
             def.bend = support::off;
         }

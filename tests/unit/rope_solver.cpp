@@ -14,9 +14,7 @@ namespace {
 
 // One kilogram a metre, half as much at both ends: 2 · segments² / length for the lightest.
 lks_rope_def straight(std::uint32_t segments, double length) {
-    lks_rope_def def = lks_default_rope_def();
-    def.segments = segments;
-    def.length = length;
+    lks_rope_def def = support::straight_rope(segments, length);
     def.linear_density = 1;
     if (segments == 1) {
         def.bend = support::off;
