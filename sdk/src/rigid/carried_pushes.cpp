@@ -88,23 +88,19 @@ public:
                            {scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other)}, share);
             });
         }
+        measure_moved();
     }
 
     // It has been added to: what others had in mind with it has to be thought over.
     void mark_changed() {
         scene_.figures_changed[figure()] = 1;
-        for_each(Part::body, [this](std::uint32_t i) { measure_motion(scene_, i); });
-        for_each(Part::shared_contact, [this](std::uint32_t i) {
-            const std::uint32_t body = neighbouring_body(i);
-            scene_.figures_changed[scene_.figures[body]] = 1;
-            measure_motion(scene_, body);
-        });
+        for_each(Part::shared_contact,
+                 [this](std::uint32_t i) { scene_.figures_changed[neighbour_of(i)] = 1; });
     }
     bool knows_changed() const {
         bool any = scene_.figures_changed[figure()] != 0;
-        for_each(Part::shared_contact, [&](std::uint32_t i) {
-            any = any || scene_.figures_changed[scene_.figures[neighbouring_body(i)]] != 0;
-        });
+        for_each(Part::shared_contact,
+                 [&](std::uint32_t i) { any = any || scene_.figures_changed[neighbour_of(i)] != 0; });
         return any;
     }
 
@@ -117,10 +113,20 @@ private:
         for_each_part(scene_, range_, kind, use);
     }
 
+    // What it has added to: its own bodies, and those that they push.
+    void measure_moved() {
+        for_each(Part::body, [this](std::uint32_t i) { measure_motion(scene_, i); });
+        for_each_acting(scene_, range_, Part::shared_contact,
+                        [this](std::uint32_t i) { measure_motion(scene_, neighbouring_body(i)); });
+    }
+
     std::uint32_t figure() const { return name_of(scene_, range_); }
     std::uint32_t neighbouring_body(std::uint32_t contact) const {
         const ContactKey& key = scene_.contacts[contact].key;
         return scene_.figures[key.body_a] == figure() ? key.other : key.body_a;
+    }
+    std::uint32_t neighbour_of(std::uint32_t contact) const {
+        return scene_.figures[neighbouring_body(contact)];
     }
 
     void add_products(std::uint32_t index, std::int32_t mass, const Motion& by_pushes, const Motion& motion) {

@@ -32,7 +32,7 @@ void for_each_part(const RigidScene& scene, const FigureRange& figure, Part kind
 template <typename Use>
 void for_each_acting(const RigidScene& scene, const FigureRange& figure, Part kind, const Use& use) {
     for_each_part(scene, figure, kind, [&](std::uint32_t i) {
-        if (scene.contacts_act[i] != 0) {
+        if (scene.acts(i)) {
             use(i);
         }
     });

@@ -92,13 +92,12 @@ bool heavier(const InverseMass& a, const InverseMass& b) {
     return a.exponent != b.exponent ? a.exponent < b.exponent : a.mantissa < b.mantissa;
 }
 
-PairShares pair_shares(const InverseMass& a, const InverseMass& b) {
-    const InverseMass& greater = heavier(a, b) ? b : a;
-    return {share_of(a, greater), share_of(b, greater)};
-}
-
 std::int32_t share_in_greater(const InverseMass& a, const InverseMass& b) {
     return share_of(a, heavier(a, b) ? b : a);
+}
+
+PairShares pair_shares(const InverseMass& a, const InverseMass& b) {
+    return {share_in_greater(a, b), share_in_greater(b, a)};
 }
 
 Inverse invert(std::int64_t weight) {

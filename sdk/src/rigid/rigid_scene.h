@@ -150,6 +150,8 @@ struct RigidScene {
     // After joints came or went.
     void follow_joints();
     bool empty() const { return bodies.empty() && attachments.empty(); }
+    // Whether a contact does anything in this substep, once its rows are made.
+    bool acts(std::size_t contact) const { return contacts_act[contact] != 0; }
 
     // What solves trees side by side, where the processor has lanes for it.
     const TreeKernels& tree_kernels() const { return tree_kernels_; }

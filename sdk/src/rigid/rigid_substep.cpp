@@ -60,11 +60,11 @@ ContactBodies RigidSubstep::bodies_of(const Contact& contact) {
     return {scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other)};
 }
 
-// Each by itself: use(contact, index).
+// Each by itself: use(index).
 template <typename Use>
 void RigidSubstep::in_contacts(const Use& use) {
     run_each(team_, scene_.contacts.size(), contacts_a_block,
-             [&](std::uint32_t i, std::uint32_t) { use(scene_.contacts[i], i); });
+             [&](std::uint32_t i, std::uint32_t) { use(i); });
 }
 
 // use(bundle)
@@ -141,7 +141,8 @@ void RigidSubstep::solve_trees(const FigureBundle& bundle) {
 }
 
 void RigidSubstep::begin(std::uint32_t substep) {
-    in_contacts([&](Contact& contact, std::uint32_t) {
+    in_contacts([&](std::uint32_t i) {
+        Contact& contact = scene_.contacts[i];
         if (contact.every_substep && substep > 1) {
             find_points_again(world_, contact);
         }
@@ -209,7 +210,8 @@ void RigidSubstep::carry_pushes_on() {
         });
     });
     static_cast<void>(scene_.contacts_act.resize(scene_.contacts.size())); // within its room
-    in_contacts([this](Contact& contact, std::uint32_t i) {
+    in_contacts([this](std::uint32_t i) {
+        Contact& contact = scene_.contacts[i];
         make_rows(contact, bodies_of(contact));
         scene_.contacts_act[i] = contact.active_count != 0 ? 1 : 0;
     });
@@ -252,11 +254,10 @@ void RigidSubstep::push_contacts_again(const FigureRange& figure) {
 }
 
 void RigidSubstep::measure_contact(std::uint32_t index) {
-    if (scene_.contacts_act[index] == 0) {
-        return;
+    if (scene_.acts(index)) {
+        Contact& contact = scene_.contacts[index];
+        measure(contact, bodies_of(contact));
     }
-    Contact& contact = scene_.contacts[index];
-    measure(contact, bodies_of(contact));
 }
 
 // Colliders have the one that stays zero.
@@ -265,11 +266,10 @@ Move& RigidSubstep::move_of(std::uint32_t other) {
 }
 
 void RigidSubstep::project_contact(std::uint32_t index, bool back) {
-    if (scene_.contacts_act[index] == 0) {
-        return;
+    if (scene_.acts(index)) {
+        Contact& contact = scene_.contacts[index];
+        project(contact, {move_of(contact.key.body_a), move_of(contact.key.other)}, back);
     }
-    Contact& contact = scene_.contacts[index];
-    project(contact, {move_of(contact.key.body_a), move_of(contact.key.other)}, back);
 }
 
 void RigidSubstep::apply_contact_moves(const FigureRange& figure) {
@@ -357,7 +357,7 @@ void RigidSubstep::mark_strained(std::uint32_t body) {
 void RigidSubstep::mark_hard_impacts() {
     constexpr std::int64_t hard = (std::int64_t{1} << world_fraction_bits) / 100;
     for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
-        if (scene_.contacts_act[i] == 0) {
+        if (!scene_.acts(i)) {
             continue;
         }
         const Contact& contact = scene_.contacts[i];
@@ -483,15 +483,22 @@ void RigidSubstep::finish() {
         }
     });
     if (world_.event_log.wants_contacts()) {
-        in_contacts([this](Contact& contact, std::uint32_t) { add_up_pushes(contact, rate_); });
+        in_contacts([this](std::uint32_t i) {
+            if (scene_.acts(i)) {
+                add_up_pushes(scene_.contacts[i], rate_);
+            }
+        });
     }
     if (any_restitution_) {
-        for (Contact& contact : scene_.contacts) {
-            restore_speed(contact, bodies_of(contact), least_approach_);
+        for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
+            if (scene_.acts(i)) {
+                Contact& contact = scene_.contacts[i];
+                restore_speed(contact, bodies_of(contact), least_approach_);
+            }
         }
     }
     const auto undo = [this](std::uint32_t i) {
-        if (scene_.contacts_act[i] != 0) {
+        if (scene_.acts(i)) {
             undo_overlap(scene_.contacts[i], bodies_of(scene_.contacts[i]), rate_);
         }
     };
