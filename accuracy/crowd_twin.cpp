@@ -26,7 +26,9 @@ reference::RigidModel model_of(const lks_bench::Crowd& crowd) {
         lks_body_transform(ours.world(), ours.bodies()[i], &def.transform);
         lks_body_velocity(ours.world(), ours.bodies()[i], &def.velocity, &def.angular_velocity);
         lks_body_mass(ours.world(), ours.bodies()[i], &mass);
-        model.bodies.push_back(reference::rigid_body(def, crowd.shapes[index], lks_fixed_to_double(mass)));
+        def.shapes = &crowd.shapes[index];
+        def.shape_count = 1;
+        model.bodies.push_back(reference::rigid_body(def, lks_fixed_to_double(mass)));
         model.bodies.back().touches_colliders = model.bodies.back().touches_bodies = true;
         if (bone.parent != LKS_NO_PARENT) {
             model.joints.push_back(reference::rigid_joint(reference::joint_of_bone(crowd.bones, index),

@@ -20,16 +20,18 @@ struct MovingBody {
     using Quat = Quaternion<Scalar>;
 
     explicit MovingBody(const RigidBody& from)
-        : moves(from.mass > 0), mass(static_cast<Scalar>(from.mass)), inertia(from.inertia),
-          position(from.position), orientation(quaternion_of<Scalar>(from.orientation)),
-          velocity(from.velocity), spin(from.spin), gravity_factor(static_cast<Scalar>(from.gravity_factor)),
+        : moves(from.mass > 0), mass(static_cast<Scalar>(from.mass)),
+          inertia(matrix_of<Scalar>(from.inertia)), position(from.position),
+          orientation(quaternion_of<Scalar>(from.orientation)), velocity(from.velocity), spin(from.spin),
+          gravity_factor(static_cast<Scalar>(from.gravity_factor)),
           linear_damping(static_cast<Scalar>(from.linear_damping)),
           angular_damping(static_cast<Scalar>(from.angular_damping)), rotation(orientation.matrix()) {
         if (moves) {
             inverse_mass = 1 / mass;
-            inverse_inertia = {1 / inertia.x, 1 / inertia.y, 1 / inertia.z};
+            inverse_inertia = inverse_of(inertia);
         }
-        round = from.inertia.x == from.inertia.y && from.inertia.y == from.inertia.z;
+        const RigidInertia& m = from.inertia;
+        round = m.xy == 0 && m.xz == 0 && m.yz == 0 && m.xx == m.yy && m.yy == m.zz;
     }
 
     bool moves;
@@ -37,7 +39,7 @@ struct MovingBody {
     bool jointed = false;
     Scalar mass;
     Scalar inverse_mass = 0;
-    Vec inertia, inverse_inertia; // about its own axes
+    Matrix<Scalar> inertia{}, inverse_inertia{}; // in its own axes
     Vec position;
     Quat orientation;
     Vec velocity, spin;

@@ -86,7 +86,7 @@ private:
         // `part`: of its mass.
         void add(const Body& body, Scalar part, const Vec& pushed, const Vec& turned) {
             const Scalar mass = body.mass * part;
-            const Vec turned_mass = products(body.inertia, turned) * part;
+            const Vec turned_mass = body.inertia * turned * part;
             g += mass * pushed.dot(body.position - body.start_position) +
                  turned_mass.dot(turn_since(body, body.start_orientation));
             q += mass * pushed.dot(pushed) + turned_mass.dot(turned);
@@ -115,14 +115,20 @@ private:
             }
         }
         // What the contacts with other figures do to these. None counts as heavier than the figure's own.
-        for (const Contact& contact : parts_.contacts) {
-            if (parts_.is_shared(contact) && parts_.belongs_to(contact, figure)) {
-                const bool to_a = parts_.figures[contact.a] != figure;
-                const Body& neighbour = parts_.bodies[to_a ? contact.a : contact.b];
-                Move move;
-                contact.add_pushes(to_a, move);
+        // Those of the same two bodies stand together.
+        Move move;
+        for (std::size_t k = 0; k < parts_.contacts.size(); ++k) {
+            const Contact& contact = parts_.contacts[k];
+            if (!parts_.is_shared(contact) || !parts_.belongs_to(contact, figure)) {
+                continue;
+            }
+            const bool to_a = parts_.figures[contact.a] != figure;
+            const Body& neighbour = parts_.bodies[to_a ? contact.a : contact.b];
+            contact.add_pushes(to_a, move);
+            if (k + 1 == parts_.contacts.size() || !contact.is_of_same_bodies(parts_.contacts[k + 1])) {
                 energies.add(neighbour, std::min(heaviest / neighbour.mass, Scalar(1)), move.shift,
                              neighbour.rotation.back(move.angle));
+                move = {};
             }
         }
         if (!(energies.q > 0)) {

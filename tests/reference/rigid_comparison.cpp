@@ -18,9 +18,10 @@ lks_world_def world_def(const Settings& settings) {
     return def;
 }
 
-Rotation rotation_of(const lks_rotation& q) {
-    const auto part = [](std::int32_t c) { return static_cast<double>(c) / LKS_ROTATION_ONE; };
-    return {part(q.x), part(q.y), part(q.z), part(q.w)};
+support::Vector centre_of(const support::World& world, lks_body_id body) {
+    lks_vec3 centre{};
+    REQUIRE(lks_body_centre_of_mass(world, body, &centre) == LKS_OK);
+    return support::metres(centre);
 }
 
 // The angle between two rotations.
@@ -63,18 +64,27 @@ void RigidScene::add_ground(double static_friction, double dynamic_friction, boo
     add_collider(def, bodies_touch);
 }
 
-std::size_t RigidScene::add(const lks_body_shape& shape, lks_body_def def) {
+std::size_t RigidScene::add(const std::vector<lks_body_shape>& shapes, lks_body_def def) {
     def.never_sleeps = 1;
     if (!touches_colliders_) {
         def.filter.mask = 0;
     }
     def.filter.group = touches_bodies_ ? 0 : -1;
-    REQUIRE(support::same(shape.transform.position, lks_vec3{})); // rigid_body() knows no other
-    ids_.push_back(support::add_body(world_, shape, def.transform.position, def));
-    model_.bodies.push_back(rigid_body(def, shape, support::mass_of(world_, ids_.back())));
-    model_.bodies.back().touches_colliders = touches_colliders_;
-    model_.bodies.back().touches_bodies = touches_bodies_;
+    def.shapes = shapes.data();
+    def.shape_count = static_cast<std::uint32_t>(shapes.size());
+    lks_body_id id{};
+    REQUIRE(lks_world_add_body(world_, &def, &id) == LKS_OK);
+    ids_.push_back(id);
+    RigidBody body = rigid_body(def, support::mass_of(world_, id));
+    REQUIRE((body.centre - centre_of(world_, id)).length() < 1e-11);
+    body.touches_colliders = touches_colliders_;
+    body.touches_bodies = touches_bodies_;
+    model_.bodies.push_back(std::move(body));
     return ids_.size() - 1;
+}
+
+std::size_t RigidScene::add(const lks_body_shape& shape, const lks_body_def& def) {
+    return add(std::vector<lks_body_shape>{shape}, def);
 }
 
 std::size_t RigidScene::add_anchor(const lks_vec3& position) {
@@ -84,9 +94,12 @@ std::size_t RigidScene::add_anchor(const lks_vec3& position) {
     return add(support::ball_shape(0.05), def);
 }
 
-void RigidScene::join(lks_joint_def def, std::size_t a, std::size_t b) {
+void RigidScene::join(const lks_joint_def& def, std::size_t a, std::size_t b) {
     joints_.push_back(support::add_joint(world_, def, ids_[a], ids_[b]));
-    model_.joints.push_back(rigid_joint(def, a, b));
+    RigidJoint joint = rigid_joint(def, a, b);
+    joint.point_a = joint.point_a - model_.bodies[a].centre;
+    joint.point_b = joint.point_b - model_.bodies[b].centre;
+    model_.joints.push_back(joint);
 }
 
 void RigidScene::drive(std::size_t joint, const lks_motor& motor) {
@@ -107,7 +120,8 @@ std::vector<RigidDeviation> RigidScene::run(const std::vector<int>& ticks) {
             single.tick();
             for (std::size_t i = 0; i < ids_.size(); ++i) {
                 const support::BodyState state = support::state_of(world_, ids_[i]);
-                compare(worst.fixed_point, expected, i, state.position, rotation_of(state.rotation));
+                const support::Vector centre = support::rotate(state.rotation, centre_of(world_, ids_[i]));
+                compare(worst.fixed_point, expected, i, state.position + centre, rotation_of(state.rotation));
                 compare(worst.single, expected, i, single.position(i), single.orientation(i));
             }
         }

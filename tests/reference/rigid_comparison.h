@@ -31,10 +31,10 @@ public:
     // A plane through the origin that is turned so.
     void add_ground(double static_friction, double dynamic_friction, bool bodies_touch,
                     const lks_rotation& rotation = lks_transform_identity().rotation);
-    // One shape with the body's own axes.
-    std::size_t add(const lks_body_shape& shape, lks_body_def def);
+    std::size_t add(const std::vector<lks_body_shape>& shapes, lks_body_def def);
+    std::size_t add(const lks_body_shape& shape, const lks_body_def& def);
     std::size_t add_anchor(const lks_vec3& position);
-    void join(lks_joint_def def, std::size_t a, std::size_t b);
+    void join(const lks_joint_def& def, std::size_t a, std::size_t b);
 
     // Joints by the order in which they were added.
     void drive(std::size_t joint, const lks_motor& motor);

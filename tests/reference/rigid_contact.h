@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "reference/rigid_body.h"
@@ -46,12 +47,16 @@ public:
     using Move = BodyMove<Scalar>;
 
     std::size_t a = 0, b = 0; // bodies, colliders behind them
+    std::size_t shape_a = 0, shape_b = 0;
     Scalar radius_a = 0, radius_b = 0;
     Scalar static_friction = 0, dynamic_friction = 0, restitution = 0;
     bool jointed = false;       // joints hold one of the bodies
     bool every_substep = false; // its points are looked for in each, not once a tick
     Vec normal;                 // from a to b
     std::vector<Point> points;
+
+    auto key() const { return std::tuple(a, b, shape_a, shape_b); }
+    bool is_of_same_bodies(const BodyContact& other) const { return a == other.a && b == other.b; }
 
     // `manifold` is relative to a's centre of mass.
     void take_manifold(const Manifold<Scalar>& manifold, const Body& body_a, const Body& body_b,

@@ -71,8 +71,8 @@ private:
 
     // I⁻¹(IΩ × hΩ/2), in the body's axes; none where it would be more than a quarter of Ω.
     Vec gyroscopic_change(const Body& body, const Vec& spin) const {
-        const Vec torque = cross(products(body.inertia, spin), spin * (Scalar(0.5) / rate_));
-        const Vec change = products(body.inverse_inertia, torque);
+        const Vec torque = cross(body.inertia * spin, spin * (Scalar(0.5) / rate_));
+        const Vec change = body.inverse_inertia * torque;
         return greatest(change) > greatest(spin) / 4 ? Vec{} : change;
     }
 

@@ -195,9 +195,10 @@ private:
         if (length == 0) {
             return 0;
         }
-        const Vec& inverse = body.inverse_inertia;
+        const Matrix<Scalar>& inverse = body.inverse_inertia;
         const Vec along = point * (1 / length);
-        return length * (inverse.x + inverse.y + inverse.z - along.dot(products(inverse, along)));
+        return length *
+               (inverse.rows[0].x + inverse.rows[1].y + inverse.rows[2].z - along.dot(inverse * along));
     }
 
     bool is_distance() const { return kind_ == LKS_JOINT_DISTANCE; }

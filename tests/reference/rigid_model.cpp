@@ -1,35 +1,14 @@
 #include "reference/rigid_model.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "reference/rigid_numbers.h"
 
 namespace reference {
 namespace {
 
 using support::Vector;
-
-Rotation rotation_of(const lks_rotation& q) {
-    const double x = q.x, y = q.y, z = q.z, w = q.w;
-    const double length = std::sqrt(x * x + y * y + z * z + w * w);
-    return {x / length, y / length, z / length, w / length};
-}
-
-// Of one kilogram.
-Vector inertia_of(const lks_body_shape& shape) {
-    const double r = support::metres(shape.radius);
-    const double ball = 2 * r * r / 5;
-    if (shape.shape == LKS_SHAPE_SPHERE) {
-        return {ball, ball, ball};
-    }
-    if (shape.shape == LKS_SHAPE_CAPSULE) {
-        const double h = support::metres(shape.half_length);
-        const double cylinder = 3 * h / (3 * h + 2 * r); // its share of the mass
-        const double ends = 1 - cylinder;
-        const double across = cylinder * (r * r / 4 + h * h / 3) + ends * (ball + h * h + 3 * h * r / 4);
-        return {across, cylinder * r * r / 2 + ends * ball, across};
-    }
-    const Vector e = support::metres(shape.half_extents);
-    return {(e.y * e.y + e.z * e.z) / 3, (e.z * e.z + e.x * e.x) / 3, (e.x * e.x + e.y * e.y) / 3};
-}
 
 // Of a body's shape or of a collider.
 template <typename Definition>
@@ -41,22 +20,43 @@ RigidShape shape_of(const Definition& shape) {
             box ? support::metres(shape.half_extents) : Vector{}};
 }
 
+// Of a ball about its own centre that contains it.
+double radius_of(const RigidShape& shape) {
+    return shape.kind == LKS_SHAPE_BOX ? shape.half_extents.length() : shape.radius + shape.half_length;
+}
+
 double radians(lks_fixed degrees) {
     return support::metres(degrees) * (std::acos(-1.0) / 180);
 }
 
 } // namespace
 
-RigidBody rigid_body(const lks_body_def& def, const lks_body_shape& shape, double mass) {
+Rotation rotation_of(const lks_rotation& q) {
+    const double x = q.x, y = q.y, z = q.z, w = q.w;
+    const double length = std::sqrt(x * x + y * y + z * z + w * w);
+    return {x / length, y / length, z / length, w / length};
+}
+
+RigidBody rigid_body(const lks_body_def& def, double mass) {
+    const RigidMass own = rigid_mass(def.shapes, def.shape_count);
     RigidBody body;
-    body.position = support::metres(def.transform.position);
+    body.centre = own.centre;
     body.orientation = rotation_of(def.transform.rotation);
-    body.shape = shape_of(shape);
+    body.position =
+        support::metres(def.transform.position) +
+        (quaternion_of<double>(body.orientation).matrix() * Vector3<double>(own.centre)).widened();
+    for (std::uint32_t i = 0; i < def.shape_count; ++i) {
+        RigidShape shape = shape_of(def.shapes[i]);
+        shape.position = support::metres(def.shapes[i].transform.position) - own.centre;
+        shape.orientation = rotation_of(def.shapes[i].transform.rotation);
+        body.radius = std::max(body.radius, shape.position.length() + radius_of(shape));
+        body.shapes.push_back(shape);
+    }
     body.surface = {support::metres(def.static_friction), support::metres(def.dynamic_friction),
                     support::metres(def.restitution)};
     if (def.kind == LKS_BODY_DYNAMIC) {
         body.mass = mass;
-        body.inertia = inertia_of(shape) * mass;
+        body.inertia = own.inertia * mass;
         body.gravity_factor = support::metres(def.gravity_factor);
         body.linear_damping = support::metres(def.linear_damping);
         body.angular_damping = support::metres(def.angular_damping);

@@ -7,13 +7,18 @@
 #include <cstdint>
 #include <vector>
 
+#include "reference/rigid_mass.h"
 #include "support/numbers.h"
 
 namespace reference {
 
 struct Rotation {
     double x = 0, y = 0, z = 0, w = 1; // a unit quaternion
+
+    bool operator==(const Rotation&) const = default;
 };
+
+Rotation rotation_of(const lks_rotation& q);
 
 struct RigidSurface {
     double static_friction = 0;
@@ -26,18 +31,23 @@ struct RigidShape {
     double radius;      // 0: a box
     double half_length; // of a capsule, along y
     support::Vector half_extents;
+    // Of a body: from its centre of mass, in its axes.
+    support::Vector position{};
+    Rotation orientation{};
 };
 
 struct RigidBody {
-    double mass = 0;         // 0: an anchor, which stays where it is
-    support::Vector inertia; // about its own axes
-    support::Vector position;
+    double mass = 0;          // 0: an anchor, which stays where it is
+    RigidInertia inertia;     // in its own axes
+    support::Vector centre;   // of mass, in the frame that its shapes were given in
+    support::Vector position; // of the centre of mass
     Rotation orientation;
     support::Vector velocity;
     support::Vector spin; // in world axes
     double gravity_factor = 1;
     double linear_damping = 0, angular_damping = 0; // 1/s
-    RigidShape shape;
+    std::vector<RigidShape> shapes;
+    double radius = 0; // of a ball about the centre of mass with all shapes in it
     RigidSurface surface;
     bool touches_colliders = false;
     bool touches_bodies = false; // but those that a joint holds to it
@@ -80,9 +90,9 @@ struct RigidModel {
     std::vector<RigidCollider> colliders;
 };
 
-// Of one shape with the body's own axes and centre, which touches nothing. `mass` counts, whatever the
-// density.
-RigidBody rigid_body(const lks_body_def& def, const lks_body_shape& shape, double mass);
+// Which touches nothing. `mass` counts, whatever the densities.
+RigidBody rigid_body(const lks_body_def& def, double mass);
+// Of bodies whose frames are at their centres of mass.
 RigidJoint rigid_joint(const lks_joint_def& def, std::size_t a, std::size_t b);
 RigidMotor rigid_motor(const lks_motor& motor);
 // Of a bone to its parent: bones that stand upright in the rest pose, each its own shape's middle.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "reference/rigid_model.h"
+#include "reference/symmetric_system.h"
 #include "reference/xpbd.h"
 
 namespace reference {
@@ -53,15 +54,39 @@ struct Matrix {
     Vec column(int i) const { return {component(rows[0], i), component(rows[1], i), component(rows[2], i)}; }
     // By the transposed.
     Vec back(const Vec& v) const { return rows[0] * v.x + rows[1] * v.y + rows[2] * v.z; }
-    // R·diag·Rᵀ.
-    Matrix around(const Vec& diagonal) const {
-        Matrix out;
-        for (int i = 0; i < 3; ++i) {
-            out.rows[i] = *this * products(diagonal, rows[i]);
-        }
-        return out;
+    Matrix operator*(const Matrix& m) const { return {{m.back(rows[0]), m.back(rows[1]), m.back(rows[2])}}; }
+    // R·M·Rᵀ of a symmetric M.
+    Matrix around(const Matrix& m) const {
+        return {{*this * (m * rows[0]), *this * (m * rows[1]), *this * (m * rows[2])}};
     }
 };
+
+template <typename Scalar>
+Matrix<Scalar> diagonal(const Vector3<Scalar>& v) {
+    return {{{v.x, 0, 0}, {0, v.y, 0}, {0, 0, v.z}}};
+}
+
+template <typename Scalar>
+Matrix<Scalar> matrix_of(const RigidInertia& m) {
+    const auto row = [](double x, double y, double z) { return Vector3<Scalar>(support::Vector{x, y, z}); };
+    return {{row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)}};
+}
+
+// Of a symmetric positive one.
+template <typename Scalar>
+Matrix<Scalar> inverse_of(const Matrix<Scalar>& m) {
+    SymmetricSystem<Scalar> system;
+    system.factor(3, {m.rows[0].x, m.rows[0].y, m.rows[0].z, m.rows[1].x, m.rows[1].y, m.rows[1].z,
+                      m.rows[2].x, m.rows[2].y, m.rows[2].z});
+    Matrix<Scalar> out;
+    for (int i = 0; i < 3; ++i) {
+        std::vector<Scalar> column(3);
+        column[static_cast<std::size_t>(i)] = 1;
+        system.solve(column);
+        out.rows[i] = {column[0], column[1], column[2]};
+    }
+    return out;
+}
 
 template <typename Scalar>
 struct Quaternion {

@@ -25,20 +25,33 @@ public:
 
     void add(const RigidCollider& collider) { model_.colliders.push_back(collider); }
 
-    // `bodies`: the model's, and its colliders behind them. In ascending order of pairs; those that pushed in
-    // the tick before go on with it.
+    // `bodies`: the model's, and its colliders behind them. In ascending order of pairs of bodies and of
+    // their shapes; those that pushed in the tick before go on with it.
     std::vector<Contact> find(const std::vector<Body>& bodies, Scalar tick_rate, Scalar substep_rate,
                               const std::vector<Contact>& before) const {
         std::vector<Contact> found;
         std::size_t next = 0; // of those before
         for (std::size_t a = 0; a < model_.bodies.size(); ++a) {
             for (std::size_t b = a + 1; b < bodies.size(); ++b) {
-                while (next < before.size() && std::pair(before[next].a, before[next].b) < std::pair(a, b)) {
-                    ++next;
+                if (!may_touch(a, b)) {
+                    continue;
                 }
-                const bool known = next < before.size() && before[next].a == a && before[next].b == b;
-                if (may_touch(a, b)) {
-                    add(a, b, bodies, tick_rate, substep_rate, known ? &before[next] : nullptr, found);
+                for (std::size_t shape_a = 0; shape_a < shape_count(a); ++shape_a) {
+                    for (std::size_t shape_b = 0; shape_b < shape_count(b); ++shape_b) {
+                        Contact contact;
+                        contact.a = a;
+                        contact.b = b;
+                        contact.shape_a = shape_a;
+                        contact.shape_b = shape_b;
+                        while (next < before.size() && before[next].key() < contact.key()) {
+                            ++next;
+                        }
+                        const bool known = next < before.size() && before[next].key() == contact.key();
+                        if (touches(contact, bodies, tick_rate, substep_rate,
+                                    known ? &before[next] : nullptr)) {
+                            found.push_back(std::move(contact));
+                        }
+                    }
                 }
             }
         }
@@ -52,8 +65,9 @@ public:
 
 private:
     bool is_collider(std::size_t b) const { return b >= model_.bodies.size(); }
-    const RigidShape& shape_of(std::size_t i) const {
-        return is_collider(i) ? model_.colliders[i - model_.bodies.size()].shape : model_.bodies[i].shape;
+    const RigidCollider& collider(std::size_t b) const { return model_.colliders[b - model_.bodies.size()]; }
+    std::size_t shape_count(std::size_t i) const {
+        return is_collider(i) ? 1 : model_.bodies[i].shapes.size();
     }
 
     bool may_touch(std::size_t a, std::size_t b) const {
@@ -72,16 +86,18 @@ private:
     // Two figures part the shorter way.
     static bool keeps_side(const Body& a, const Body& b) { return !a.jointed || !b.jointed; }
 
-    void add(std::size_t a, std::size_t b, const std::vector<Body>& bodies, Scalar tick_rate,
-             Scalar substep_rate, const Contact* before, std::vector<Contact>& found) const {
-        const Body& body_a = bodies[a];
-        const Body& body_b = bodies[b];
-        const Scalar turning = (turning_speed(a, bodies) + turning_speed(b, bodies)) / tick_rate;
+    // False: not in this tick.
+    bool touches(Contact& contact, const std::vector<Body>& bodies, Scalar tick_rate, Scalar substep_rate,
+                 const Contact* before) const {
+        const Body& body_a = bodies[contact.a];
+        const Body& body_b = bodies[contact.b];
+        const Scalar turning =
+            (turning_speed(contact.a, bodies) + turning_speed(contact.b, bodies)) / tick_rate;
         const Scalar motion = sum(body_b.velocity - body_a.velocity) / tick_rate + turning;
-        const Piece<Scalar> piece_a = piece_of(a, body_a, body_a.position);
-        const Piece<Scalar> piece_b = piece_of(b, body_b, body_a.position);
+        const Piece<Scalar> piece_a = piece_of(contact.a, contact.shape_a, body_a, body_a.position);
+        const Piece<Scalar> piece_b = piece_of(contact.b, contact.shape_b, body_b, body_a.position);
         if (are_apart(piece_a, piece_b, motion + near)) {
-            return;
+            return false;
         }
         Manifold<Scalar> manifold = touch(piece_a, piece_b, motion + near, {});
         const bool fast = motion > thickness(piece_a) + thickness(piece_b);
@@ -94,11 +110,8 @@ private:
             return point.separation > near + closing + turning;
         });
         if (manifold.points.empty() && !unclear) {
-            return;
+            return false;
         }
-        Contact contact;
-        contact.a = a;
-        contact.b = b;
         contact.jointed = body_a.jointed || body_b.jointed;
         contact.radius_a = piece_a.radius;
         contact.radius_b = piece_b.radius;
@@ -116,7 +129,7 @@ private:
         if (passed) {
             find_points(contact, bodies, substep_rate, side);
         }
-        found.push_back(std::move(contact));
+        return true;
     }
 
     void find_points(Contact& contact, const std::vector<Body>& bodies, Scalar substep_rate,
@@ -126,8 +139,8 @@ private:
         const Scalar speed = sum(a.velocity) + sum(b.velocity) + turning_speed(contact.a, bodies) +
                              turning_speed(contact.b, bodies);
         const Scalar margin = speed / substep_rate + near;
-        const Piece<Scalar> piece_a = piece_of(contact.a, a, a.position);
-        const Piece<Scalar> piece_b = piece_of(contact.b, b, a.position);
+        const Piece<Scalar> piece_a = piece_of(contact.a, contact.shape_a, a, a.position);
+        const Piece<Scalar> piece_b = piece_of(contact.b, contact.shape_b, b, a.position);
         Manifold<Scalar> manifold(margin, 0);
         manifold.normal = contact.normal;
         if (!are_apart(piece_a, piece_b, margin)) {
@@ -138,9 +151,8 @@ private:
 
     void set_surface(Contact& contact) const {
         const RigidSurface& from = model_.bodies[contact.a].surface;
-        const RigidSurface& other = is_collider(contact.b)
-                                        ? model_.colliders[contact.b - model_.bodies.size()].surface
-                                        : model_.bodies[contact.b].surface;
+        const RigidSurface& other =
+            is_collider(contact.b) ? collider(contact.b).surface : model_.bodies[contact.b].surface;
         const auto mean = [](double p, double q) { return static_cast<Scalar>(std::sqrt(p * q)); };
         contact.static_friction = mean(from.static_friction, other.static_friction);
         contact.dynamic_friction = mean(from.dynamic_friction, other.dynamic_friction);
@@ -148,14 +160,16 @@ private:
     }
 
     // Relative to a place.
-    Piece<Scalar> piece_of(std::size_t i, const Body& body, const Vec& place) const {
-        const RigidShape& shape = shape_of(i);
+    Piece<Scalar> piece_of(std::size_t i, std::size_t number, const Body& body, const Vec& place) const {
+        const RigidShape& shape = is_collider(i) ? collider(i).shape : model_.bodies[i].shapes[number];
+        const bool turned = !(shape.orientation == Rotation{});
         Piece<Scalar> piece{shape.kind,
                             static_cast<Scalar>(shape.radius),
                             static_cast<Scalar>(shape.half_length),
                             Vec(shape.half_extents),
-                            body.position - place,
-                            body.rotation};
+                            body.position - place + body.rotation * Vec(shape.position),
+                            turned ? body.rotation * quaternion_of<Scalar>(shape.orientation).matrix()
+                                   : body.rotation};
         if (shape.kind == LKS_SHAPE_PLANE) {
             // Its nearest point.
             const Vec up = piece.axes.column(1);
@@ -180,13 +194,10 @@ private:
 
     static Scalar sum(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-    // Of its farthest point.
+    // Of its farthest point; colliders do not turn.
     Scalar turning_speed(std::size_t i, const std::vector<Body>& bodies) const {
-        const RigidShape& shape = shape_of(i);
-        const double reach = shape.kind == LKS_SHAPE_PLANE ? 0
-                             : shape.kind == LKS_SHAPE_BOX ? shape.half_extents.length()
-                                                           : shape.radius + shape.half_length;
-        return sum(bodies[i].spin) * static_cast<Scalar>(reach);
+        return is_collider(i) ? Scalar(0)
+                              : sum(bodies[i].spin) * static_cast<Scalar>(model_.bodies[i].radius);
     }
 
     static constexpr Scalar near = Scalar(0.02);

@@ -12,8 +12,8 @@
 //   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing;
 //   - what damping keeps of a speed is as exact as the numbers, where the SDK has a multiple of 2^-31;
 //   - the figures' factors are as exact as the numbers, where the SDK has motions of 26 fraction bits.
-// A body has one shape. There are no attachments and sleep of bodies, no colliders
-// that move, and no iterations more after hard impacts.
+// There are no attachments and sleep of bodies, no colliders that move, and no iterations more after hard
+// impacts.
 #pragma once
 
 #include <algorithm>
@@ -91,7 +91,7 @@ public:
             const Body& body = bodies_[i];
             const Vec spin = body.rotation.back(body.spin);
             energy += body.moves ? 0.5 * static_cast<double>(body.mass * body.velocity.dot(body.velocity) +
-                                                             spin.dot(products(body.inertia, spin)))
+                                                             spin.dot(body.inertia * spin))
                                  : 0;
         }
         return energy;
