@@ -22,7 +22,8 @@ struct MovingBody {
     explicit MovingBody(const RigidBody& from)
         : moves(from.mass > 0), mass(static_cast<Scalar>(from.mass)),
           inertia(matrix_of<Scalar>(from.inertia)), position(from.position),
-          orientation(quaternion_of<Scalar>(from.orientation)), velocity(from.velocity), spin(from.spin),
+          orientation(quaternion_of<Scalar>(from.orientation)), target_position(position),
+          target_orientation(orientation), velocity(from.velocity), spin(from.spin),
           gravity_factor(static_cast<Scalar>(from.gravity_factor)),
           linear_damping(static_cast<Scalar>(from.linear_damping)),
           angular_damping(static_cast<Scalar>(from.angular_damping)), rotation(orientation.matrix()) {
@@ -42,9 +43,15 @@ struct MovingBody {
     Matrix<Scalar> inertia{}, inverse_inertia{}; // in its own axes
     Vec position;
     Quat orientation;
+    // Of what is kinematic: at the end of the next tick.
+    Vec target_position;
+    Quat target_orientation;
     Vec velocity, spin;
     Scalar gravity_factor, linear_damping, angular_damping;
     Matrix<Scalar> rotation; // of the orientation
+    // Of the tick.
+    Vec tick_position;
+    Quat tick_orientation;
     // Of the substep.
     Matrix<Scalar> world_inverse{}; // at the predicted pose
     Vec start_position, predicted_position, uncarried_position;
@@ -68,6 +75,13 @@ struct MovingBody {
         }
     }
     Vec velocity_at(const Vec& lever) const { return velocity + cross(spin, lever); }
+
+    // What is kinematic keeps what it was given, to the bit: else it would turn.
+    void normalise() {
+        if (moves) {
+            orientation = orientation.normalised();
+        }
+    }
 
     // By an angle in world axes. Small turns leave the quaternion's length for the end of the substep.
     void turn(const Vec& angle) {

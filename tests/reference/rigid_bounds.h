@@ -39,8 +39,8 @@ inline void check(const std::string& name, const RigidDeviation& d, const RigidB
 
 // After one second and after ten.
 inline void check_run(const std::string& name, RigidScene& scene, const RigidBounds& one,
-                      const RigidBounds& ten) {
-    const std::vector<RigidDeviation> d = scene.run({second, 10 * second});
+                      const RigidBounds& ten, const RigidScene::Leading& leading = {}) {
+    const std::vector<RigidDeviation> d = scene.run({second, 10 * second}, leading);
     check(name + ", 1 s", d[0], one);
     check(name + ", 10 s", d[1], ten);
 }

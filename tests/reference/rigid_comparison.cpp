@@ -48,7 +48,7 @@ void compare(RigidDistance& distance, const RigidSolver<double>& expected, std::
 RigidScene::RigidScene(const Settings& settings) : settings_(settings), world_(world_def(settings)) {}
 
 void RigidScene::add_collider(const lks_collider_def& def, bool bodies_touch) {
-    world_.add(def);
+    colliders_.push_back(world_.add(def));
     model_.colliders.push_back(rigid_collider(def));
     touches_colliders_ = true;
     touches_bodies_ = bodies_touch;
@@ -107,14 +107,44 @@ void RigidScene::drive(std::size_t joint, const lks_motor& motor) {
     model_.joints[joint].motor = rigid_motor(motor);
 }
 
-std::vector<RigidDeviation> RigidScene::run(const std::vector<int>& ticks) {
+void RigidScene::lead_body(std::size_t body, const lks_transform& target) {
+    REQUIRE(lks_body_move_to(world_, ids_[body], target) == LKS_OK);
+    const Rotation orientation = rotation_of(target.rotation);
+    const Vector3<double> centre(model_.bodies[body].centre);
+    targets_.push_back(
+        {false, body,
+         support::metres(target.position) + (quaternion_of<double>(orientation).matrix() * centre).widened(),
+         orientation});
+}
+
+void RigidScene::lead_collider(std::size_t collider, const lks_transform& target) {
+    REQUIRE(lks_collider_move_to(world_, colliders_[collider], target) == LKS_OK);
+    targets_.push_back({true, collider, support::metres(target.position), rotation_of(target.rotation)});
+}
+
+std::vector<RigidDeviation> RigidScene::run(const std::vector<int>& ticks, const Leading& leading) {
     RigidSolver<double> expected(model_, settings_);
     RigidSolver<float> single(model_, settings_);
+    const auto lead = [](auto& solver, const Target& target) {
+        if (target.of_collider) {
+            solver.lead_collider(target.index, target.position, target.orientation);
+        } else {
+            solver.lead_body(target.index, target.position, target.orientation);
+        }
+    };
     std::vector<RigidDeviation> deviations;
     RigidDeviation worst;
     int tick = 0;
     for (const int end : ticks) {
         for (; tick < end; ++tick) {
+            targets_.clear();
+            if (leading) {
+                leading(*this, tick);
+            }
+            for (const Target& target : targets_) {
+                lead(expected, target);
+                lead(single, target);
+            }
             world_.step();
             expected.tick();
             single.tick();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "reference/rigid_model.h"
@@ -24,6 +25,9 @@ struct RigidDeviation {
 
 class RigidScene {
 public:
+    // What is led in a tick, before it: lead_body() and lead_collider().
+    using Leading = std::function<void(RigidScene& scene, int tick)>;
+
     explicit RigidScene(const Settings& settings);
 
     // Bodies that are added from now on touch colliders, and, if they are to, each other.
@@ -39,8 +43,13 @@ public:
     // Joints by the order in which they were added.
     void drive(std::size_t joint, const lks_motor& motor);
 
+    // What is kinematic is to be there at the end of the next tick; colliders by the order in which they were
+    // added.
+    void lead_body(std::size_t body, const lks_transform& target);
+    void lead_collider(std::size_t collider, const lks_transform& target);
+
     // The greatest until each of these ticks, in ascending order. Once a scene.
-    std::vector<RigidDeviation> run(const std::vector<int>& ticks);
+    std::vector<RigidDeviation> run(const std::vector<int>& ticks, const Leading& leading = {});
 
     const Settings& settings() const { return settings_; }
     const RigidModel& model() const { return model_; } // as it begins
@@ -51,12 +60,21 @@ public:
     const std::vector<lks_joint_id>& joints() const { return joints_; }
 
 private:
+    struct Target {
+        bool of_collider;
+        std::size_t index;
+        support::Vector position; // of a body's centre of mass
+        Rotation orientation;
+    };
+
     Settings settings_;
     support::World world_;
     bool touches_colliders_ = false;
     bool touches_bodies_ = false;
     std::vector<lks_body_id> ids_;
     std::vector<lks_joint_id> joints_;
+    std::vector<lks_collider_id> colliders_;
+    std::vector<Target> targets_; // of the next tick
     RigidModel model_;
 };
 

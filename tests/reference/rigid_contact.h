@@ -243,8 +243,8 @@ public:
         if (any) {
             to_a.apply_to(body_a);
             to_b.apply_to(body_b);
-            body_a.orientation = body_a.orientation.normalised();
-            body_b.orientation = body_b.orientation.normalised();
+            body_a.normalise();
+            body_b.normalise();
         }
     }
 

@@ -80,7 +80,7 @@ public:
             solve(tree, false);
         }
         if (round > 0) {
-            points_.for_each_body(tree, [](Body& body) { body.orientation = body.orientation.normalised(); });
+            points_.for_each_body(tree, [](Body& body) { body.normalise(); });
             points_.solve_points(tree, false);
         }
         return round > 0;

@@ -134,8 +134,8 @@ public:
                 Body& a = bodies_[joint.a];
                 Body& b = bodies_[joint.b];
                 far_off = joint.undo_turn(a, b) || far_off;
-                a.orientation = a.orientation.normalised();
-                b.orientation = b.orientation.normalised();
+                a.normalise();
+                b.normalise();
             }
             solve_points(tree, false);
         }

@@ -20,11 +20,6 @@ RigidShape shape_of(const Definition& shape) {
             box ? support::metres(shape.half_extents) : Vector{}};
 }
 
-// Of a ball about its own centre that contains it.
-double radius_of(const RigidShape& shape) {
-    return shape.kind == LKS_SHAPE_BOX ? shape.half_extents.length() : shape.radius + shape.half_length;
-}
-
 double radians(lks_fixed degrees) {
     return support::metres(degrees) * (std::acos(-1.0) / 180);
 }
@@ -35,6 +30,10 @@ Rotation rotation_of(const lks_rotation& q) {
     const double x = q.x, y = q.y, z = q.z, w = q.w;
     const double length = std::sqrt(x * x + y * y + z * z + w * w);
     return {x / length, y / length, z / length, w / length};
+}
+
+double radius_of(const RigidShape& shape) {
+    return shape.kind == LKS_SHAPE_BOX ? shape.half_extents.length() : shape.radius + shape.half_length;
 }
 
 RigidBody rigid_body(const lks_body_def& def, double mass) {

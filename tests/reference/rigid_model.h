@@ -36,8 +36,11 @@ struct RigidShape {
     Rotation orientation{};
 };
 
+// Of a ball about its own centre that contains it.
+double radius_of(const RigidShape& shape);
+
 struct RigidBody {
-    double mass = 0;          // 0: an anchor, which stays where it is
+    double mass = 0;          // 0: kinematic, goes where it is led
     RigidInertia inertia;     // in its own axes
     support::Vector centre;   // of mass, in the frame that its shapes were given in
     support::Vector position; // of the centre of mass
@@ -75,7 +78,6 @@ struct RigidJoint {
     RigidMotor motor;
 };
 
-// Stays where it is.
 struct RigidCollider {
     support::Vector position;
     Rotation orientation; // local y is a plane's normal

@@ -105,6 +105,14 @@ struct Quaternion {
         const Scalar f = 1 / std::sqrt(x * x + y * y + z * z + w * w);
         return {x * f, y * f, z * f, w * f};
     }
+    // A share of the shorter way: the components in between, normalised.
+    Quaternion towards(const Quaternion& b, Scalar share) const {
+        const Scalar dot = x * b.x + y * b.y + z * b.z + w * b.w;
+        const Scalar to = dot < 0 ? -share : share;
+        const Scalar from = 1 - share;
+        return Quaternion{x * from + b.x * to, y * from + b.y * to, z * from + b.z * to, w * from + b.w * to}
+            .normalised();
+    }
     // q + τ⊗q, not normalised.
     Quaternion moved(const Vec& half_turn) const {
         const Quaternion d = Quaternion{half_turn.x, half_turn.y, half_turn.z, 0} * *this;

@@ -92,7 +92,7 @@ private:
         const Body& body_a = bodies[contact.a];
         const Body& body_b = bodies[contact.b];
         const Scalar turning =
-            (turning_speed(contact.a, bodies) + turning_speed(contact.b, bodies)) / tick_rate;
+            turned_in_tick(contact.a, bodies, tick_rate) + turned_in_tick(contact.b, bodies, tick_rate);
         const Scalar motion = sum(body_b.velocity - body_a.velocity) / tick_rate + turning;
         const Piece<Scalar> piece_a = piece_of(contact.a, contact.shape_a, body_a, body_a.position);
         const Piece<Scalar> piece_b = piece_of(contact.b, contact.shape_b, body_b, body_a.position);
@@ -136,11 +136,12 @@ private:
                      const Vec& side) const {
         const Body& a = bodies[contact.a];
         const Body& b = bodies[contact.b];
-        const Scalar speed = sum(a.velocity) + sum(b.velocity) + turning_speed(contact.a, bodies) +
-                             turning_speed(contact.b, bodies);
-        const Scalar margin = speed / substep_rate + near;
         const Piece<Scalar> piece_a = piece_of(contact.a, contact.shape_a, a, a.position);
         const Piece<Scalar> piece_b = piece_of(contact.b, contact.shape_b, b, a.position);
+        const Scalar turning =
+            turning_speed(contact.a, bodies) +
+            (is_collider(contact.b) ? sum(b.spin) * reach(piece_b) : turning_speed(contact.b, bodies));
+        const Scalar margin = (sum(a.velocity) + sum(b.velocity) + turning) / substep_rate + near;
         Manifold<Scalar> manifold(margin, 0);
         manifold.normal = contact.normal;
         if (!are_apart(piece_a, piece_b, margin)) {
@@ -178,10 +179,10 @@ private:
         return piece;
     }
 
+    static Scalar reach(const Piece<Scalar>& piece) {
+        return piece.radius + piece.half_length + sum(piece.half_extents);
+    }
     static bool are_apart(const Piece<Scalar>& a, const Piece<Scalar>& b, Scalar margin) {
-        const auto reach = [](const Piece<Scalar>& piece) {
-            return piece.radius + piece.half_length + sum(piece.half_extents);
-        };
         return b.kind != LKS_SHAPE_PLANE && greatest(b.centre - a.centre) > reach(a) + reach(b) + margin;
     }
 
@@ -194,10 +195,20 @@ private:
 
     static Scalar sum(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-    // Of its farthest point; colliders do not turn.
+    // Of a body's farthest point.
     Scalar turning_speed(std::size_t i, const std::vector<Body>& bodies) const {
-        return is_collider(i) ? Scalar(0)
-                              : sum(bodies[i].spin) * static_cast<Scalar>(model_.bodies[i].radius);
+        return sum(bodies[i].spin) * static_cast<Scalar>(model_.bodies[i].radius);
+    }
+    // How far it takes that in a tick; a collider that turns, by a quarter at most.
+    Scalar turned_in_tick(std::size_t i, const std::vector<Body>& bodies, Scalar tick_rate) const {
+        if (!is_collider(i)) {
+            return turning_speed(i, bodies) / tick_rate;
+        }
+        if (bodies[i].orientation == bodies[i].target_orientation) {
+            return 0;
+        }
+        const RigidShape& shape = collider(i).shape;
+        return 2 * static_cast<Scalar>(shape.kind == LKS_SHAPE_PLANE ? 64 : radius_of(shape));
     }
 
     static constexpr Scalar near = Scalar(0.02);

@@ -12,8 +12,7 @@
 //   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing;
 //   - what damping keeps of a speed is as exact as the numbers, where the SDK has a multiple of 2^-31;
 //   - the figures' factors are as exact as the numbers, where the SDK has motions of 26 fraction bits.
-// There are no attachments and sleep of bodies, no colliders that move, and no iterations more after hard
-// impacts.
+// There are no attachments and sleep of bodies, and no iterations more after hard impacts.
 #pragma once
 
 #include <algorithm>
@@ -39,8 +38,9 @@ public:
     RigidSolver& operator=(const RigidSolver&) = delete;
     RigidSolver(const RigidModel& model, const Settings& settings)
         : settings_(settings), rate_(static_cast<Scalar>(settings.tick_rate_hz * settings.substeps)),
-          motion_(Vec(settings.gravity), rate_), search_(model), body_count_(model.bodies.size()),
-          least_approach_(least_approach(settings)), carried_(parts_, 2 * least_approach_ / rate_) {
+          motion_(Vec(settings.gravity), rate_, settings.substeps), search_(model),
+          body_count_(model.bodies.size()), least_approach_(least_approach(settings)),
+          carried_(parts_, 2 * least_approach_ / rate_) {
         for (const RigidBody& from : model.bodies) {
             bodies_.emplace_back(from);
         }
@@ -60,10 +60,11 @@ public:
             for (Body& body : bodies_) {
                 body.rotation = body.orientation.matrix();
                 body.follow_rotation();
+                motion_.aim(body);
             }
             contacts_ = search_.find(bodies_, static_cast<Scalar>(settings_.tick_rate_hz), rate_, contacts_);
-            for (int k = 0; k < settings_.substeps; ++k) {
-                substep(k == 0);
+            for (int k = 1; k <= settings_.substeps; ++k) {
+                substep(k);
             }
             part_figures(parts_, settings_);
         }
@@ -75,6 +76,15 @@ public:
         parts_.figures.push_back(bodies_.size());
         parts_.held.push_back(false);
         add_still(collider);
+    }
+
+    // What is kinematic: a body's centre of mass, or a collider, is to be there at the end of the next tick.
+    void lead_body(std::size_t body, const support::Vector& position, const Rotation& orientation) {
+        bodies_[body].target_position = Vec(position);
+        bodies_[body].target_orientation = quaternion_of<Scalar>(orientation);
+    }
+    void lead_collider(std::size_t collider, const support::Vector& position, const Rotation& orientation) {
+        lead_body(body_count_ + collider, position, orientation);
     }
 
     std::size_t size() const { return body_count_; }
@@ -118,9 +128,10 @@ private:
         bodies_.emplace_back(still);
     }
 
-    void substep(bool first) {
+    // 1 .. substeps
+    void substep(int number) {
         parts_.for_each_contact([&](Contact& contact, Body& a, Body& b) {
-            if (contact.every_substep && !first) {
+            if (contact.every_substep && number > 1) {
                 search_.look_again(contact, bodies_, rate_);
             }
             contact.begin(a, b, rate_);
@@ -128,7 +139,7 @@ private:
         parts_.for_each_joint([](Joint& joint, Body& a, Body& b) { joint.begin(a, b); });
         strike_all();
         for (Body& body : bodies_) {
-            motion_.predict(body);
+            motion_.predict(body, number);
         }
         trees_.factor_points();
         contact_moves_.resize(bodies_.size());
@@ -146,8 +157,8 @@ private:
             if (!joint.in_tree) {
                 joint.undo_turn(a, b);
                 joint.undo_points(a, b);
-                a.orientation = a.orientation.normalised();
-                b.orientation = b.orientation.normalised();
+                a.normalise();
+                b.normalise();
             }
         });
         for (const bool shared : {false, true}) {
@@ -163,7 +174,7 @@ private:
             }
         }
         for (Body& body : bodies_) {
-            body.orientation = body.orientation.normalised();
+            body.normalise();
         }
     }
 
