@@ -38,6 +38,7 @@ struct MovingBody {
     bool moves;
     bool round = false;
     bool jointed = false;
+    bool attached = false; // particles are held at it
     Scalar mass;
     Scalar inverse_mass = 0;
     Matrix<Scalar> inertia{}, inverse_inertia{}; // in its own axes

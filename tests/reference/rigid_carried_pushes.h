@@ -91,6 +91,11 @@ private:
                  turned_mass.dot(turn_since(body, body.start_orientation));
             q += mass * pushed.dot(pushed) + turned_mass.dot(turned);
         }
+        // Of an attachment, which begins each substep from nothing.
+        void add_expected(const Body& body, const Vec& pushed, const Vec& turned, const Move& expected) {
+            g += body.mass * pushed.dot(expected.shift) +
+                 (body.inertia * turned).dot(body.rotation.back(expected.angle));
+        }
     };
 
     // In the body's axes.
@@ -108,8 +113,14 @@ private:
         for (std::size_t i = 0; i < parts_.bodies.size(); ++i) {
             const Body& body = parts_.bodies[i];
             if (body.moves && parts_.figures[i] == figure) {
-                energies.add(body, 1, body.position - body.uncarried_position,
-                             turn_since(body, body.uncarried_orientation));
+                const Vec pushed = body.position - body.uncarried_position;
+                const Vec turned = turn_since(body, body.uncarried_orientation);
+                energies.add(body, 1, pushed, turned);
+                for (const HeldParticle<Scalar>& attachment : parts_.attachments) {
+                    if (attachment.holds(i)) {
+                        energies.add_expected(body, pushed, turned, attachment.expected_move(body));
+                    }
+                }
                 mass += body.mass;
                 heaviest = std::max(heaviest, body.mass);
             }

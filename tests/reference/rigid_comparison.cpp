@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "reference/asset_model.h"
 #include "reference/rigid_xpbd.h"
 #include "support/bodies.h"
 
@@ -30,6 +31,12 @@ double angle_between(const Rotation& a, const Rotation& b) {
     return 2 * std::atan2(d.vector().length(), std::abs(d.w));
 }
 
+template <typename Definition>
+Definition without_particles(Definition def) {
+    def.filter.mask &= ~LKS_CATEGORY_PARTICLES;
+    return def;
+}
+
 // Also where it is no number.
 void keep_greatest(double& greatest, double value) {
     if (!(value <= greatest)) {
@@ -43,12 +50,22 @@ void compare(RigidDistance& distance, const RigidSolver<double>& expected, std::
     keep_greatest(distance.radians, angle_between(orientation, expected.orientation(body)));
 }
 
+void compare_particles(RigidDeviation& worst, const RigidSolver<double>& expected,
+                       const RigidSolver<float>& single, std::size_t object,
+                       const std::vector<support::Vector>& positions) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const support::Vector there = expected.particle(object, i);
+        keep_greatest(worst.fixed_point.metres, (positions[i] - there).length());
+        keep_greatest(worst.single.metres, (single.particle(object, i) - there).length());
+    }
+}
+
 } // namespace
 
 RigidScene::RigidScene(const Settings& settings) : settings_(settings), world_(world_def(settings)) {}
 
 void RigidScene::add_collider(const lks_collider_def& def, bool bodies_touch) {
-    colliders_.push_back(world_.add(def));
+    colliders_.push_back(world_.add(without_particles(def)));
     model_.colliders.push_back(rigid_collider(def));
     touches_colliders_ = true;
     touches_bodies_ = bodies_touch;
@@ -70,6 +87,7 @@ std::size_t RigidScene::add(const std::vector<lks_body_shape>& shapes, lks_body_
         def.filter.mask = 0;
     }
     def.filter.group = touches_bodies_ ? 0 : -1;
+    def = without_particles(def);
     def.shapes = shapes.data();
     def.shape_count = static_cast<std::uint32_t>(shapes.size());
     lks_body_id id{};
@@ -100,6 +118,64 @@ void RigidScene::join(const lks_joint_def& def, std::size_t a, std::size_t b) {
     joint.point_a = joint.point_a - model_.bodies[a].centre;
     joint.point_b = joint.point_b - model_.bodies[b].centre;
     model_.joints.push_back(joint);
+}
+
+std::size_t RigidScene::add(const support::Asset& asset, const lks_vec3& position,
+                            const std::vector<double>& masses, const Materials& materials, bool directly) {
+    lks_transform place = lks_transform_identity();
+    place.position = position;
+    objects_.push_back(world_.add(asset, place));
+    Model model = model_of(world_, objects_.back(), asset, {}, masses, materials);
+    if (directly) {
+        model.chain = segments_of(model.edges);
+    }
+    model_.objects.push_back(std::move(model));
+    return objects_.size() - 1;
+}
+
+std::size_t RigidScene::add_rope(const support::Chain& chain, const lks_vec3& position) {
+    REQUIRE(chain.solver != LKS_ROPE_AUTOMATIC);
+    return add(chain.build(), position, chain.masses(), {chain.stretch, support::off, chain.bend},
+               chain.solver == LKS_ROPE_DIRECT);
+}
+
+std::size_t RigidScene::add_points(const std::vector<support::Vector>& points,
+                                   const std::vector<double>& masses) {
+    return add(support::loose_points(points, masses), {}, masses, {support::off, support::off, support::off},
+               false);
+}
+
+void RigidScene::pin(std::size_t object, std::uint32_t particle) {
+    world_.pin(objects_[object], particle);
+    model_.objects[object].pins.push_back(particle);
+}
+
+void RigidScene::attach(lks_attachment_def def, std::size_t object, std::size_t body) {
+    def.kind = LKS_ATTACHMENT_TO_BODY;
+    def.object = objects_[object];
+    def.body = ids_[body];
+    attach(def, {object, def.vertex, true, body, 0, support::metres(def.point) - model_.bodies[body].centre,
+                 support::metres(def.compliance), support::metres(def.damping)});
+}
+
+void RigidScene::attach_to_particle(lks_attachment_def def, std::size_t object, std::size_t other) {
+    def.kind = LKS_ATTACHMENT_TO_VERTEX;
+    def.object = objects_[object];
+    def.other_object = objects_[other];
+    attach(def, {object,
+                 def.vertex,
+                 false,
+                 other,
+                 def.other_vertex,
+                 {},
+                 support::metres(def.compliance),
+                 support::metres(def.damping)});
+}
+
+void RigidScene::attach(const lks_attachment_def& def, const RigidAttachment& attachment) {
+    lks_attachment_id id{};
+    REQUIRE(lks_world_add_attachment(world_, &def, &id) == LKS_OK);
+    model_.attachments.push_back(attachment);
 }
 
 void RigidScene::drive(std::size_t joint, const lks_motor& motor) {
@@ -148,6 +224,10 @@ std::vector<RigidDeviation> RigidScene::run(const std::vector<int>& ticks, const
             world_.step();
             expected.tick();
             single.tick();
+            for (std::size_t object = 0; object < objects_.size(); ++object) {
+                compare_particles(worst, expected, single, object,
+                                  world_.positions_from(objects_[object], {}));
+            }
             for (std::size_t i = 0; i < ids_.size(); ++i) {
                 const support::BodyState state = support::state_of(world_, ids_[i]);
                 const support::Vector centre = support::rotate(state.rotation, centre_of(world_, ids_[i]));

@@ -8,13 +8,14 @@
 
 #include "reference/rigid_model.h"
 #include "reference/xpbd.h"
+#include "support/builders.h"
 #include "support/handles.h"
 
 namespace reference {
 
 // From the double-precision twin, over all bodies and ticks.
 struct RigidDistance {
-    double metres = 0;  // of a centre of mass
+    double metres = 0;  // of a centre of mass or a particle
     double radians = 0; // between orientations
 };
 
@@ -40,6 +41,14 @@ public:
     std::size_t add_anchor(const lks_vec3& position);
     void join(const lks_joint_def& def, std::size_t a, std::size_t b);
 
+    // Objects of particles, which touch nothing.
+    std::size_t add_rope(const support::Chain& chain, const lks_vec3& position);
+    std::size_t add_points(const std::vector<support::Vector>& points, const std::vector<double>& masses);
+    void pin(std::size_t object, std::uint32_t particle);
+    // `def`: the particle, and where and how it is held.
+    void attach(lks_attachment_def def, std::size_t object, std::size_t body);
+    void attach_to_particle(lks_attachment_def def, std::size_t object, std::size_t other);
+
     // Joints by the order in which they were added.
     void drive(std::size_t joint, const lks_motor& motor);
 
@@ -60,6 +69,10 @@ public:
     const std::vector<lks_joint_id>& joints() const { return joints_; }
 
 private:
+    std::size_t add(const support::Asset& asset, const lks_vec3& position, const std::vector<double>& masses,
+                    const Materials& materials, bool directly);
+    void attach(const lks_attachment_def& def, const RigidAttachment& attachment);
+
     struct Target {
         bool of_collider;
         std::size_t index;
@@ -74,6 +87,7 @@ private:
     std::vector<lks_body_id> ids_;
     std::vector<lks_joint_id> joints_;
     std::vector<lks_collider_id> colliders_;
+    std::vector<lks_object_id> objects_;
     std::vector<Target> targets_; // of the next tick
     RigidModel model_;
 };

@@ -10,7 +10,8 @@
 
 namespace reference {
 
-// Once a tick: as wholes, by the contacts of the last substep; what hangs on an anchor stays.
+// Once a tick: as wholes, by the contacts of the last substep; what hangs on an anchor or
+// is attached stays.
 template <typename Scalar>
 void part_figures(RigidParts<Scalar>& parts, const Settings& settings) {
     using Vec = Vector3<Scalar>;
@@ -27,6 +28,9 @@ void part_figures(RigidParts<Scalar>& parts, const Settings& settings) {
         if (!parts.bodies[joint.a].moves || !parts.bodies[joint.b].moves) {
             weights[parts.figures[joint.a]] = weights[parts.figures[joint.b]] = 0;
         }
+    }
+    for (std::size_t i = 0; i < parts.bodies.size(); ++i) {
+        weights[parts.figures[i]] = parts.bodies[i].attached ? 0 : weights[parts.figures[i]];
     }
     const bool gentle = settings.tick_rate_hz * settings.substeps >= 400;
     std::vector<Scalar> pushed(parts.contacts.size());

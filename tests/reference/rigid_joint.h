@@ -80,7 +80,10 @@ public:
         drive_.prepare();
         push = keeps_push() ? push : Vec{};
         if (!is_distance() && (!in_tree || drive_.is_motor())) {
-            points_.factor(body_a, lever_a, body_b, lever_b);
+            // Where the joints before it have turned them by what they carry on.
+            block_lever_a_ = body_a.rotation * point_a_;
+            block_lever_b_ = body_b.rotation * point_b_;
+            points_.factor(body_a, block_lever_a_, body_b, block_lever_b_);
         }
         if (holds_turn()) {
             factor_turning(body_a, body_b);
@@ -206,7 +209,7 @@ private:
     bool keeps_turn() const { return !turn_softness_.is_soft(); }
 
     void push_apart(Body& body_a, Body& body_b, const Vec& more) const {
-        JointPoints<Scalar>::push_apart(body_a, lever_a, body_b, lever_b, more);
+        JointPoints<Scalar>::push_apart(body_a, block_lever_a_, body_b, block_lever_b_, more);
     }
     void project_points(Body& body_a, Body& body_b) {
         const Vec apart = offset(body_a, body_b);
@@ -312,6 +315,7 @@ private:
     Vec turn_; // b against a: carried from substep to substep
     // Of the substep.
     Vec begin_; // how far the points were apart at its beginning
+    Vec block_lever_a_, block_lever_b_;
     Vec turn_start_;
     SymmetricSystem<Scalar> turning_;
 };

@@ -21,11 +21,17 @@ public:
 
     // At the predicted pose: K = Σ (1/m − r̂ I⁻¹ r̂), and what is soft.
     void factor(const Body& a, const Vec& lever_a, const Body& b, const Vec& lever_b) {
+        factor([&](const Vec& axis, const Vec& soft) {
+            return soft + motion_of(a, lever_a, axis) + motion_of(b, lever_b, axis);
+        });
+    }
+    // motion(push, soft): how far it moves them apart, with what is soft.
+    template <typename Motion>
+    void factor(const Motion& motion) {
         std::vector<Scalar> k(9);
         for (int column = 0; column < 3; ++column) {
             const Vec axis = along_axis(column, Scalar(1));
-            const Vec moved =
-                axis * softness_.added + motion_of(a, lever_a, axis) + motion_of(b, lever_b, axis);
+            const Vec moved = motion(axis, axis * softness_.added);
             for (int row = 0; row < 3; ++row) {
                 k[static_cast<std::size_t>(3 * row + column)] = component(moved, row);
             }
@@ -51,11 +57,12 @@ public:
         BodyMove<Scalar>{push * b.inverse_mass, b.world_inverse * cross(lever_b, push)}.apply_to(b);
     }
 
-private:
+    // What a push does to the body's point.
     static Vec motion_of(const Body& body, const Vec& lever, const Vec& push) {
         return push * body.inverse_mass + cross(body.world_inverse * cross(lever, push), lever);
     }
 
+private:
     Softness<Scalar> softness_;
     SymmetricSystem<Scalar> k_;
 };

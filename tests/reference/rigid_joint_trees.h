@@ -32,7 +32,8 @@ public:
 
     explicit JointTrees(RigidParts<Scalar>& parts) : bodies_(parts.bodies), joints_(parts.joints) {}
 
-    // Soft joints and distances are left out, and so are those that close loops.
+    // Soft joints and distances are left out, and so are those that close loops and those of trees that
+    // particles are attached to.
     void find() {
         std::vector<std::size_t> roots(bodies_.size());
         std::iota(roots.begin(), roots.end(), std::size_t{0});
@@ -50,6 +51,15 @@ public:
             }
             Tree tree;
             tree.joints = joints_from(root);
+            bool attached = false;
+            for_each_body(tree,
+                          [&](const Body& body) { attached = attached || (body.moves && body.attached); });
+            if (attached) {
+                for (const std::size_t i : tree.joints) {
+                    joints_[i].in_tree = false;
+                }
+                continue;
+            }
             for (const std::size_t i : tree.joints) {
                 tree.held = tree.held || bodies_[joints_[i].a].moves != bodies_[joints_[i].b].moves;
             }

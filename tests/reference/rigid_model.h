@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "reference/model.h"
 #include "reference/rigid_mass.h"
 #include "support/numbers.h"
 
@@ -85,11 +86,23 @@ struct RigidCollider {
     RigidSurface surface;
 };
 
+// A particle that is held at a point of a body, or at one of another object.
+struct RigidAttachment {
+    std::size_t object, particle;
+    bool to_body;
+    std::size_t other; // body, or object
+    std::size_t other_particle;
+    support::Vector point; // from the body's centre of mass, in its axes
+    double compliance, damping;
+};
+
 // Joints that form trees stand in their order, from the body of the lowest index on.
 struct RigidModel {
     std::vector<RigidBody> bodies;
     std::vector<RigidJoint> joints;
     std::vector<RigidCollider> colliders;
+    std::vector<Model> objects; // of particles, which only attachments touch
+    std::vector<RigidAttachment> attachments;
 };
 
 // Which touches nothing. `mass` counts, whatever the densities.

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "reference/rigid_attachment.h"
 #include "reference/rigid_contact.h"
 #include "reference/rigid_joint.h"
 
@@ -17,10 +18,13 @@ struct RigidParts {
     using Body = MovingBody<Scalar>;
     using Joint = HeldJoint<Scalar>;
     using Contact = BodyContact<Scalar>;
+    using Attachment = HeldParticle<Scalar>;
 
     std::vector<Body> bodies; // colliders behind them
     std::vector<Joint> joints;
     std::vector<Contact> contacts;
+    std::vector<Solver<Scalar>> objects;
+    std::vector<Attachment> attachments;
     std::vector<std::size_t> figures; // of each body: the number of one of its figure
     std::vector<bool> held;           // by the figure's number: by a joint to what does not move
 
@@ -51,6 +55,37 @@ struct RigidParts {
     bool belongs_to(const Contact& contact, std::size_t figure) const {
         return (bodies[contact.a].moves && figures[contact.a] == figure) ||
                (bodies[contact.b].moves && figures[contact.b] == figure);
+    }
+
+    // Of the objects with them.
+    void begin_tick(int substeps) {
+        for (Solver<Scalar>& object : objects) {
+            object.begin_tick();
+        }
+        for (Attachment& attachment : attachments) {
+            attachment.begin_tick(substeps);
+        }
+    }
+    void begin_substep(int substep) {
+        for (Solver<Scalar>& object : objects) {
+            object.begin_substep(substep);
+        }
+        for (Attachment& attachment : attachments) {
+            attachment.begin_substep(objects, bodies);
+        }
+    }
+    void project_attachments() {
+        for (Attachment& attachment : attachments) {
+            attachment.project(objects, bodies);
+        }
+    }
+    void finish_substep() {
+        for (Solver<Scalar>& object : objects) {
+            object.finish_substep();
+        }
+        for (Attachment& attachment : attachments) {
+            attachment.finish_substep();
+        }
     }
 
     // use(joint, body a, body b), and the same of contacts.

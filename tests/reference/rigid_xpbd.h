@@ -12,7 +12,8 @@
 //   - the SDK takes 2^-33 of a spin a substep, to be sure that roundings add nothing;
 //   - what damping keeps of a speed is as exact as the numbers, where the SDK has a multiple of 2^-31;
 //   - the figures' factors are as exact as the numbers, where the SDK has motions of 26 fraction bits.
-// There are no attachments and sleep of bodies, and no iterations more after hard impacts.
+// Particles go with it by xpbd.h, held by attachments; they touch nothing. There is no sleep, and there are
+// no iterations more after hard impacts.
 #pragma once
 
 #include <algorithm>
@@ -51,6 +52,15 @@ public:
             joints_.emplace_back(from, rate_);
             bodies_[from.a].jointed = bodies_[from.b].jointed = true;
         }
+        for (const Model& from : model.objects) {
+            parts_.objects.emplace_back(from, settings);
+        }
+        for (const RigidAttachment& from : model.attachments) {
+            parts_.attachments.emplace_back(from, rate_);
+            if (from.to_body) {
+                bodies_[from.other].attached = true;
+            }
+        }
         parts_.find_figures();
         trees_.find();
     }
@@ -63,6 +73,7 @@ public:
                 motion_.aim(body);
             }
             contacts_ = search_.find(bodies_, static_cast<Scalar>(settings_.tick_rate_hz), rate_, contacts_);
+            parts_.begin_tick(settings_.substeps);
             for (int k = 1; k <= settings_.substeps; ++k) {
                 substep(k);
             }
@@ -93,6 +104,9 @@ public:
     Rotation orientation(std::size_t body) const {
         const Quaternion<Scalar>& q = bodies_[body].orientation;
         return {q.x, q.y, q.z, q.w};
+    }
+    support::Vector particle(std::size_t object, std::size_t particle) const {
+        return parts_.objects[object].position(particle);
     }
     // Joules.
     double kinetic_energy() const {
@@ -141,11 +155,17 @@ private:
         for (Body& body : bodies_) {
             motion_.predict(body, number);
         }
+        parts_.begin_substep(number);
         trees_.factor_points();
         contact_moves_.resize(bodies_.size());
         carry_pushes_on();
         for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
+            for (Solver<Scalar>& object : parts_.objects) {
+                object.project();
+            }
+            parts_.project_attachments();
             sweep([](std::size_t) { return true; });
+            parts_.project_attachments();
         }
         relieve_held();
         for (Body& body : bodies_) {
@@ -176,6 +196,7 @@ private:
         for (Body& body : bodies_) {
             body.normalise();
         }
+        parts_.finish_substep();
     }
 
     // An impact may cause the next one: forward and back, until nothing strikes any more.

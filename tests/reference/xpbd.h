@@ -107,32 +107,51 @@ public:
 
     void tick(int count = 1) {
         for (int i = 0; i < count; ++i) {
-            prepare();
-            const std::vector<Vec> start = positions_;
+            begin_tick();
             for (int substep = 1; substep <= settings_.substeps; ++substep) {
-                predict(start, static_cast<Scalar>(substep) / static_cast<Scalar>(settings_.substeps));
-                std::fill(multipliers_.begin(), multipliers_.end(), Scalar(0));
+                begin_substep(substep);
                 for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
-                    hold_by_tethers();
-                    for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
-                        if (chain_.empty() || edges_[edge].family != LKS_CONSTRAINT_STRETCH) {
-                            project(edge);
-                        }
-                    }
-                    if (!chain_.empty()) {
-                        solve_chain();
-                    }
+                    project();
                     leave_ball(centre_, radius_, inverse_masses_, positions_);
                     if (contact_) {
                         collide(substep);
                     }
                 }
-                for (std::size_t p = 0; p < positions_.size(); ++p) {
-                    velocities_[p] = (positions_[p] - previous_[p]) * (1 / h_);
-                }
+                finish_substep();
             }
         }
     }
+
+    // A tick in parts, for who has something to do in between.
+    void begin_tick() {
+        prepare();
+        tick_start_ = positions_;
+    }
+    // 1 .. substeps
+    void begin_substep(int substep) {
+        predict(tick_start_, static_cast<Scalar>(substep) / static_cast<Scalar>(settings_.substeps));
+        std::fill(multipliers_.begin(), multipliers_.end(), Scalar(0));
+    }
+    void project() {
+        hold_by_tethers();
+        for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
+            if (chain_.empty() || edges_[edge].family != LKS_CONSTRAINT_STRETCH) {
+                project(edge);
+            }
+        }
+        if (!chain_.empty()) {
+            solve_chain();
+        }
+    }
+    void finish_substep() {
+        for (std::size_t p = 0; p < positions_.size(); ++p) {
+            velocities_[p] = (positions_[p] - previous_[p]) * (1 / h_);
+        }
+    }
+    Vec& place_of(std::size_t particle) { return positions_[particle]; }
+    const Vec& place_of(std::size_t particle) const { return positions_[particle]; }
+    // Of a pinned one 0.
+    Scalar inverse_mass(std::size_t particle) const { return inverse_masses_[particle]; }
 
     // In metres, with the place taken off again.
     support::Vector position(std::size_t particle) const { return positions_[particle].widened() - place_; }
@@ -351,6 +370,7 @@ private:
     std::vector<double> masses_;
     std::vector<Scalar> inverse_masses_;
     std::vector<Vec> positions_, previous_, velocities_, targets_;
+    std::vector<Vec> tick_start_;
     std::vector<Scalar> multipliers_;
     std::vector<Coefficients> coefficients_;
     Scalar greatest_damping_ = 0; // γ' of a tether

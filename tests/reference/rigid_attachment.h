@@ -1,0 +1,91 @@
+// A particle that is held at a point of a body, or at another particle, in the rigid reference solver: as
+// sdk/src/rigid/attachment.h.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "reference/rigid_joint_points.h"
+#include "reference/xpbd.h"
+
+namespace reference {
+
+template <typename Scalar>
+class HeldParticle {
+public:
+    using Vec = Vector3<Scalar>;
+    using Body = MovingBody<Scalar>;
+    using Objects = std::vector<Solver<Scalar>>;
+    using Bodies = std::vector<Body>;
+
+    // rate: substeps a second.
+    HeldParticle(const RigidAttachment& from, Scalar rate)
+        : from_(from), point_(from.point), points_(Softness<Scalar>(from.compliance, from.damping, rate)) {}
+
+    bool holds(std::size_t body) const { return from_.to_body && from_.other == body; }
+
+    void begin_tick(int substeps) {
+        expected_ = pushed_ * (1 / static_cast<Scalar>(substeps));
+        pushed_ = {};
+    }
+    // After the prediction.
+    void begin_substep(const Objects& objects, const Bodies& bodies) {
+        push_ = {};
+        begin_ = offset(objects, bodies);
+        const Scalar own = objects[from_.object].inverse_mass(from_.particle);
+        if (from_.to_body) {
+            const Body& body = bodies[from_.other];
+            lever_ = body.rotation * point_;
+            points_.factor([&](const Vec& push, const Vec& soft) {
+                return soft + push * own + JointPoints<Scalar>::motion_of(body, lever_, push);
+            });
+        } else {
+            const Scalar other = objects[from_.other].inverse_mass(from_.other_particle);
+            points_.factor([&](const Vec& push, const Vec& soft) { return soft + push * (own + other); });
+        }
+    }
+    void project(Objects& objects, Bodies& bodies) {
+        const Vec error = offset(objects, bodies);
+        const Vec next = points_.next_push(error, error - begin_, push_);
+        const Vec more = next - push_;
+        push_ = next;
+        move(objects[from_.object], from_.particle, more * Scalar(-1));
+        if (from_.to_body) {
+            move_of(bodies[from_.other], more).apply_to(bodies[from_.other]);
+        } else {
+            move(objects[from_.other], from_.other_particle, more);
+        }
+    }
+    void finish_substep() { pushed_ = pushed_ + push_; }
+
+    // What it will about do to its body in this substep, by what it did in those of the tick before.
+    BodyMove<Scalar> expected_move(const Body& body) const { return move_of(body, expected_); }
+
+private:
+    // The other side less the particle.
+    Vec offset(const Objects& objects, const Bodies& bodies) const {
+        const Vec& here = objects[from_.object].place_of(from_.particle);
+        if (from_.to_body) {
+            const Body& body = bodies[from_.other];
+            return body.position - here + body.rotation * point_;
+        }
+        return objects[from_.other].place_of(from_.other_particle) - here;
+    }
+    static void move(Solver<Scalar>& object, std::size_t particle, const Vec& push) {
+        object.place_of(particle) = object.place_of(particle) + push * object.inverse_mass(particle);
+    }
+    BodyMove<Scalar> move_of(const Body& body, const Vec& push) const {
+        return {push * body.inverse_mass, body.world_inverse * cross(lever_, push)};
+    }
+
+    RigidAttachment from_;
+    Vec point_;
+    JointPoints<Scalar> points_;
+    Vec pushed_, expected_; // in this tick, and in a substep of the one before
+    // Of the substep.
+    Vec push_;
+    Vec begin_; // how far it was apart at its beginning
+    Vec lever_;
+};
+
+} // namespace reference
