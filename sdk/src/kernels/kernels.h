@@ -5,6 +5,7 @@
 #include <lockstitch/simd.h>
 
 #include "kernels/chain_task.h"
+#include "kernels/contact_point_task.h"
 #include "kernels/contact_task.h"
 #include "kernels/coordinate_range.h"
 #include "kernels/distance_task.h"
@@ -36,6 +37,7 @@ struct Kernels {
     std::uint64_t (*beyond_tether)(const TetherTask& task, std::uint32_t first, std::uint32_t count);
     ChainKernels chain;
     TreeKernels trees;
+    ContactPointKernels contact_points;
     RowKernels rows; // null where project_distances takes no rows
     // XXH3_64bits_update.
     void (*hash_update)(void* state, const void* bytes, std::size_t size);

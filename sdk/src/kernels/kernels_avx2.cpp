@@ -4,6 +4,7 @@
 
 #include "kernels/chain_lanes.h"
 #include "kernels/contact_lanes.h"
+#include "kernels/contact_point_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
 #include "kernels/lanes_avx2.h"
@@ -30,6 +31,7 @@ constinit const Kernels kernels_avx2{LKS_SIMD_AVX2,
                                      leaving<LanesAvx2, beyond_tether_lanes<LanesAvx2>>,
                                      leaving_chain_lanes<LanesAvx2>(),
                                      leaving_tree_lanes<LanesAvx2>(),
+                                     leaving_contact_point_lanes<LanesAvx2>(),
                                      leaving_row_lanes<LanesAvx2>(),
                                      leaving<LanesAvx2, hash_update>};
 

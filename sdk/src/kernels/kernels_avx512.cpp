@@ -9,6 +9,7 @@
 #endif
 #include "kernels/chain_lanes.h"
 #include "kernels/contact_lanes.h"
+#include "kernels/contact_point_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
 #include "kernels/lanes_avx2.h"
@@ -48,6 +49,7 @@ constinit const Kernels kernels_avx512{LKS_SIMD_AVX512,
                                        leaving<LanesAvx512, beyond_tether_lanes<LanesAvx512>>,
                                        leaving_chain_lanes<LanesAvx512>(),
                                        leaving_tree_lanes<LanesAvx512>(),
+                                       leaving_contact_point_lanes<LanesAvx512>(),
                                        leaving_row_lanes<LanesAvx512, LanesAvx2>(),
                                        leaving<LanesAvx512, hash_update>};
 

@@ -27,6 +27,7 @@ constinit const Kernels kernels_neon{LKS_SIMD_NEON,
                                      beyond_tether_lanes<LanesNeon>,
                                      chain_lanes<LanesNeon>(),
                                      no_tree_kernels,
+                                     no_contact_point_kernels,
                                      no_row_kernels,
                                      hash_update};
 

@@ -21,6 +21,7 @@ constinit const Kernels kernels_scalar{LKS_SIMD_SCALAR,
                                        beyond_tether_scalar,
                                        chain_scalar,
                                        no_tree_kernels,
+                                       no_contact_point_kernels,
                                        no_row_kernels,
                                        hash_update};
 

@@ -27,6 +27,7 @@ constinit const Kernels kernels_sse41{LKS_SIMD_SSE41,
                                       beyond_tether_lanes<LanesSse41>,
                                       chain_lanes<LanesSse41>(),
                                       no_tree_kernels,
+                                      no_contact_point_kernels,
                                       no_row_kernels,
                                       hash_update};
 

@@ -28,6 +28,7 @@ constinit const Kernels kernels_wasm{LKS_SIMD_WASM,
                                      beyond_tether_lanes<LanesWasm>,
                                      chain_lanes<LanesWasm>(),
                                      no_tree_kernels,
+                                     no_contact_point_kernels,
                                      no_row_kernels,
                                      hash_update};
 

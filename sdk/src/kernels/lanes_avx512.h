@@ -69,6 +69,43 @@ struct LanesAvx512 {
     static Register high_quarters(Register a, Register b) {
         return _mm512_permutex2var_epi64(a, _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2), b);
     }
+    // Four numbers from each lane's address on: address(lane).
+    template <typename Address>
+    static void load_rows(const Address& address, Register (&columns)[4]) {
+        const auto and_fourth_next = [&](std::uint32_t i) {
+            const auto at = [&](std::uint32_t lane) {
+                return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(address(lane)));
+            };
+            return _mm512_inserti64x4(_mm512_castsi256_si512(at(i)), at(i + 4), 1);
+        };
+        const Register of_04 = and_fourth_next(0);
+        const Register of_15 = and_fourth_next(1);
+        const Register of_26 = and_fourth_next(2);
+        const Register of_37 = and_fourth_next(3);
+        const Register xz_0145 = _mm512_unpacklo_epi64(of_04, of_15);
+        const Register xz_2367 = _mm512_unpacklo_epi64(of_26, of_37);
+        const Register yw_0145 = _mm512_unpackhi_epi64(of_04, of_15);
+        const Register yw_2367 = _mm512_unpackhi_epi64(of_26, of_37);
+        columns[0] = low_quarters(xz_0145, xz_2367);
+        columns[1] = low_quarters(yw_0145, yw_2367);
+        columns[2] = high_quarters(xz_0145, xz_2367);
+        columns[3] = high_quarters(yw_0145, yw_2367);
+    }
+    template <typename Address>
+    static void store_rows(const Address& address, const Register (&columns)[4]) {
+        const auto put = [&](std::uint32_t i, Register v) {
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(address(i)), _mm512_castsi512_si256(v));
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(address(i + 4)), _mm512_extracti64x4_epi64(v, 1));
+        };
+        const Register xy_0246 = _mm512_unpacklo_epi64(columns[0], columns[1]);
+        const Register xy_1357 = _mm512_unpackhi_epi64(columns[0], columns[1]);
+        const Register zw_0246 = _mm512_unpacklo_epi64(columns[2], columns[3]);
+        const Register zw_1357 = _mm512_unpackhi_epi64(columns[2], columns[3]);
+        put(0, low_quarters(xy_0246, zw_0246));
+        put(1, low_quarters(xy_1357, zw_1357));
+        put(2, high_quarters(xy_0246, zw_0246));
+        put(3, high_quarters(xy_1357, zw_1357));
+    }
     // Of both ends of half a group, along each axis.
     static void row_differences(const std::int64_t* rows, const std::uint32_t* ends, Register (&d)[3]) {
         const auto difference = [&](int i) {

@@ -49,17 +49,6 @@ void undo(Body& body, const Move& move, std::int32_t share) {
     }
 }
 
-// How far surfaces may close in a substep, or, less than nothing, have to part: by fifteen times what is to
-// be undone a second, at most a thirty-second of it at once.
-std::int64_t allowed_motion(std::int64_t separation, bool jointed, const MotionRate& rate) {
-    const std::int64_t depth = -separation - allowed_overlap;
-    if (depth <= 0 || !jointed) {
-        return std::max<std::int64_t>(separation, 0);
-    }
-    const std::int64_t n = rate.substeps_per_second;
-    return -std::min({depth / 32, depth * 15 / n, greatest_parting / n});
-}
-
 std::int64_t closing_speed(const Contact& contact, const Levers& levers, const Body& a, const Body& b) {
     return -fixed::dot(contact.normal(), velocity_at(b, levers.b) - velocity_at(a, levers.a));
 }
@@ -135,6 +124,17 @@ private:
 
 } // namespace
 
+// Less than nothing: they have to part, by fifteen times what is to be undone a second, at most a
+// thirty-second of it at once.
+std::int64_t allowed_motion(std::int64_t separation, bool jointed, const MotionRate& rate) {
+    const std::int64_t depth = -separation - allowed_overlap;
+    if (depth <= 0 || !jointed) {
+        return std::max<std::int64_t>(separation, 0);
+    }
+    const std::int64_t n = rate.substeps_per_second;
+    return -std::min({depth / 32, depth * 15 / n, greatest_parting / n});
+}
+
 std::uint32_t combined_friction(std::int64_t a, std::int64_t b) {
     const std::uint64_t root = // World
         a == b ? fixed::magnitude(a)
@@ -176,9 +176,8 @@ void begin_substep(Contact& contact, const Body& a, const Body& b, const MotionR
         point.start = distance_now(a, point.material_a, b, point.material_b);
         point.core_start = between + cores.b - cores.a;
         point.separation = fixed::dot(contact.normal(), between + levers.b - levers.a);
-        point.allowed = allowed_motion(point.separation, jointed, rate);
         point.approach = contact.restitution == 0 ? 0 : closing_speed(contact, levers, a, b);
-        point.active = false;
+        begin_point(point, jointed, rate);
     }
 }
 

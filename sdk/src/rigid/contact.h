@@ -21,6 +21,10 @@ namespace lks {
 // What overlaps by more than this, five millimetres, sticks in the other.
 inline constexpr std::int64_t sticking_depth = (std::int64_t{1} << world_fraction_bits) / 200;
 
+// Points that are further apart than this, a centimetre, push nothing yet; others may still push them
+// together.
+inline constexpr std::int64_t near_point = (std::int64_t{1} << world_fraction_bits) / 100;
+
 // Names a contact: the same pair of shapes has the same key from tick to tick.
 struct ContactKey {
     std::uint32_t body_a;
@@ -57,29 +61,32 @@ struct ContactRows {
     Inverse inverses[3];
 };
 
+// Kernels take its numbers by four: they stand in this order (kernels/contact_point_lanes.h).
 struct ContactPoint {
     ContactPush push;
     // In the frames of the bodies, World.
     fixed::Vec3 core_a;
     fixed::Vec3 core_b;
     // Of the substep.
+    std::int64_t separation;
+    std::int64_t approach;  // World m/s: how fast the surfaces closed
     fixed::Vec3 material_a; // the surface point, in a's frame
     fixed::Vec3 material_b;
     fixed::Vec3 start;      // p_b − p_a at its beginning
     fixed::Vec3 core_start; // the same of the cores
-    std::int64_t separation;
-    std::int64_t allowed;  // how far the surfaces may close; where they overlap, less than nothing
-    std::int64_t approach; // World m/s: how fast the surfaces closed
-    bool active;
     ContactRows rows;
+    std::int64_t allowed; // how far the surfaces may close; where they overlap, less than nothing
     // Of an iteration: how far the surfaces have parted along the normal in this substep, less what was open
     // at its beginning, and how far they have slid.
     std::int64_t gap;
     std::int64_t slip[2];
+    bool active; // in the substep
 };
 
 struct Contact {
     ContactKey key;
+    std::uint32_t count; // of its points
+    // Kernels take these four numbers at once (kernels/contact_point_lanes.h).
     PairShares shares;
     std::int64_t radius_a;
     std::int64_t radius_b;
@@ -96,7 +103,6 @@ struct Contact {
     // What it carried on from the substep before has done to its bodies, where they are awake.
     Move carried_a, carried_b;
     std::uint32_t active_count;
-    std::uint32_t count;
     ContactPoint* points; // in RigidScene::contact_points
 
     const fixed::Direction& normal() const { return directions[normal_row]; }

@@ -35,6 +35,31 @@ inline std::int64_t gap_of(const Contact& contact, const ContactPoint& point, co
     return fixed::dot(contact.normal(), motion) + point.allowed;
 }
 
+// How far surfaces that are so far apart may close in a substep.
+std::int64_t allowed_motion(std::int64_t separation, bool jointed, const MotionRate& rate);
+
+// Once it is known where it begins the substep.
+inline void begin_point(ContactPoint& point, bool jointed, const MotionRate& rate) {
+    point.allowed = allowed_motion(point.separation, jointed, rate);
+    point.active = false;
+}
+
+// Whether pushes at it are looked at in this substep; what is not pushed has no push of before.
+inline bool activate(Contact& contact, ContactPoint& point, bool near) {
+    point.active = near || point.push.normal != 0;
+    if (point.active) {
+        ++contact.active_count;
+    } else {
+        point.push = {point.push.feature, 0, point.push.place, 0, {0, 0}};
+    }
+    return point.active;
+}
+
+// Of several active points the rows at their middle: their levers added up.
+void make_middle(Contact& contact, const ContactBodies& bodies, const Levers& sum);
+// And its gap.
+void measure_middle(Contact& contact);
+
 // Rows at these levers along the first `count` directions.
 void fill_rows(const Contact& contact, const ContactBodies& bodies, const Levers& levers, int count,
                ContactRows& rows);

@@ -57,27 +57,25 @@ void fill_rows(const Contact& contact, const ContactBodies& bodies, const Levers
 }
 
 void make_rows(Contact& contact, ContactBodies bodies) {
-    Levers middle{{0, 0, 0}, {0, 0, 0}};
+    Levers sum{{0, 0, 0}, {0, 0, 0}};
     contact.active_count = 0;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         ContactPoint& point = contact.points[i];
         const Levers cores = cores_now(point, bodies.a, bodies.b);
-        // Another body may still push them together: what is further away than that is not looked at.
-        constexpr std::int64_t near = (std::int64_t{1} << world_fraction_bits) / 100;
-        point.active = point.push.normal != 0 || gap_of(contact, point, cores, bodies) < near;
-        if (!point.active) {
-            point.push = {point.push.feature, 0, point.push.place, 0, {0, 0}};
-            continue;
+        if (activate(contact, point, gap_of(contact, point, cores, bodies) < near_point)) {
+            const Levers levers = surfaces_of(contact, cores);
+            sum = {sum.a + levers.a, sum.b + levers.b};
+            fill_rows(contact, bodies, levers, 3, point.rows);
         }
-        const Levers levers = surfaces_of(contact, cores);
-        middle = {middle.a + levers.a, middle.b + levers.b};
-        ++contact.active_count;
-        fill_rows(contact, bodies, levers, 3, point.rows);
     }
+    make_middle(contact, bodies, sum);
+}
+
+void make_middle(Contact& contact, const ContactBodies& bodies, const Levers& sum) {
     const auto n = static_cast<std::int64_t>(contact.active_count);
     if (n > 1) {
         const auto share = [n](const Vec3& v) { return Vec3{v.x / n, v.y / n, v.z / n}; };
-        fill_rows(contact, bodies, {share(middle.a), share(middle.b)}, 1, contact.middle);
+        fill_rows(contact, bodies, {share(sum.a), share(sum.b)}, 1, contact.middle);
     }
 }
 

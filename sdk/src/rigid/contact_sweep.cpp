@@ -93,22 +93,31 @@ void project_friction(const Contact& contact, ContactPoint& point, ContactMoves&
 } // namespace
 
 void measure(Contact& contact, ContactBodies bodies) {
-    std::int64_t sum = 0;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         ContactPoint& point = contact.points[i];
         if (!point.active) {
             continue;
         }
         point.gap = gap_of(contact, point, cores_now(point, bodies.a, bodies.b), bodies);
-        sum += point.gap;
         const Vec3 slid = distance_now(bodies.a, point.material_a, bodies.b, point.material_b) - point.start;
         for (int t = 0; t < 2; ++t) {
             point.slip[t] = fixed::dot(contact.directions[1 + t], slid);
         }
     }
-    if (contact.active_count > 1) {
-        contact.middle_gap = sum / static_cast<std::int64_t>(contact.active_count);
+    measure_middle(contact);
+}
+
+void measure_middle(Contact& contact) {
+    if (contact.active_count <= 1) {
+        return;
     }
+    std::int64_t sum = 0;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        if (contact.points[i].active) {
+            sum += contact.points[i].gap;
+        }
+    }
+    contact.middle_gap = sum / static_cast<std::int64_t>(contact.active_count);
 }
 
 bool closes(const Contact& contact, const ContactBodies& bodies, std::int64_t distance) {

@@ -60,11 +60,15 @@ ContactBodies RigidSubstep::bodies_of(const Contact& contact) {
     return {scene_.bodies[contact.key.body_a], other_body(scene_, contact.key.other)};
 }
 
-// Each by itself: use(index).
+// use(first, end)
 template <typename Use>
-void RigidSubstep::in_contacts(const Use& use) {
-    run_each(team_, scene_.contacts.size(), contacts_a_block,
-             [&](std::uint32_t i, std::uint32_t) { use(i); });
+void RigidSubstep::in_contact_blocks(const Use& use) {
+    run_blocks(team_, static_cast<std::uint32_t>(scene_.contacts.size()), contacts_a_block,
+               [&](std::uint32_t first, std::uint32_t end, std::uint32_t) { use(first, end); });
+}
+
+WideContacts RigidSubstep::side_by_side(ContactStage stage) {
+    return WideContacts(scene_, world_.kernels->contact_points, stage, rate_);
 }
 
 // use(bundle)
@@ -141,13 +145,15 @@ void RigidSubstep::solve_trees(const FigureBundle& bundle) {
 }
 
 void RigidSubstep::begin(std::uint32_t substep) {
-    in_contacts([&](std::uint32_t i) {
-        Contact& contact = scene_.contacts[i];
-        if (contact.every_substep && substep > 1) {
-            find_points_again(world_, contact);
+    in_contact_blocks([&](std::uint32_t first, std::uint32_t end) {
+        WideContacts wide = side_by_side(ContactStage::begin);
+        for (std::uint32_t i = first; i < end; ++i) {
+            Contact& contact = scene_.contacts[i];
+            if (contact.every_substep && substep > 1) {
+                find_points_again(world_, contact);
+            }
+            wide.add(i);
         }
-        const ContactBodies bodies = bodies_of(contact);
-        begin_substep(contact, bodies.a, bodies.b, rate_);
     });
     in_figures([this](const FigureRange& figure) {
         for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::begin_substep(joint, a, b); });
@@ -210,10 +216,15 @@ void RigidSubstep::carry_pushes_on() {
         });
     });
     static_cast<void>(scene_.contacts_act.resize(scene_.contacts.size())); // within its room
-    in_contacts([this](std::uint32_t i) {
-        Contact& contact = scene_.contacts[i];
-        make_rows(contact, bodies_of(contact));
-        scene_.contacts_act[i] = contact.active_count != 0 ? 1 : 0;
+    in_contact_blocks([this](std::uint32_t first, std::uint32_t end) {
+        WideContacts wide = side_by_side(ContactStage::make_rows);
+        for (std::uint32_t i = first; i < end; ++i) {
+            wide.add(i);
+        }
+        wide.finish();
+        for (std::uint32_t i = first; i < end; ++i) {
+            scene_.contacts_act[i] = scene_.contacts[i].active_count != 0 ? 1 : 0;
+        }
     });
     in_bundles([this](const FigureBundle& bundle) {
         for_each_figure(bundle, [this](const FigureRange& figure) { push_contacts_again(figure); });
@@ -302,8 +313,18 @@ void RigidSubstep::solve_strained_trees(const FigureRange& figure) {
     });
 }
 
-void RigidSubstep::project_contacts(const FigureRange& figure) {
+void RigidSubstep::measure_contacts(const FigureBundle& bundle) {
+    WideContacts wide = side_by_side(ContactStage::measure);
+    for_each_figure(bundle, [&](const FigureRange& figure) {
+        for_each_acting(scene_, figure, Part::contact, [&](std::uint32_t i) { wide.add(i); });
+    });
+}
+
+void RigidSubstep::measure_contacts(const FigureRange& figure) {
     for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) { measure_contact(i); });
+}
+
+void RigidSubstep::project_contacts(const FigureRange& figure) {
     for_each_part(scene_, figure, Part::contact, [this](std::uint32_t i) { project_contact(i, false); });
 }
 
@@ -328,11 +349,19 @@ void RigidSubstep::iterate(std::uint32_t substep) {
     in_bundles([this](const FigureBundle& bundle) {
         for_each_figure(bundle, [this](const FigureRange& figure) { project_joints(figure); });
         solve_trees(bundle);
+        measure_contacts(bundle);
         for_each_figure(bundle, [this](const FigureRange& figure) { project_contacts(figure); });
     });
     const Array<std::uint32_t>& shared = scene_.shared_contacts;
-    run_each(team_, shared.size(), contacts_a_block,
-             [&](std::uint32_t i, std::uint32_t) { measure_contact(shared[i]); });
+    run_blocks(team_, static_cast<std::uint32_t>(shared.size()), contacts_a_block,
+               [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                   WideContacts wide = side_by_side(ContactStage::measure);
+                   for (std::uint32_t i = first; i < end; ++i) {
+                       if (scene_.acts(shared[i])) {
+                           wide.add(shared[i]);
+                       }
+                   }
+               });
     for (std::size_t i = 0; i < shared.size(); ++i) {
         project_contact(shared[i], false);
     }
@@ -422,6 +451,7 @@ void RigidSubstep::relieve_strained() {
                 hand_out_factors(scene_, bundle, number);
             }
             solve_strained(figure);
+            measure_contacts(figure);
             project_contacts(figure);
         });
         const Array<std::uint32_t>& shared = scene_.shared_contacts;
@@ -483,9 +513,11 @@ void RigidSubstep::finish() {
         }
     });
     if (world_.event_log.wants_contacts()) {
-        in_contacts([this](std::uint32_t i) {
-            if (scene_.acts(i)) {
-                add_up_pushes(scene_.contacts[i], rate_);
+        in_contact_blocks([this](std::uint32_t first, std::uint32_t end) {
+            for (std::uint32_t i = first; i < end; ++i) {
+                if (scene_.acts(i)) {
+                    add_up_pushes(scene_.contacts[i], rate_);
+                }
             }
         });
     }

@@ -8,6 +8,7 @@
 
 #include "rigid/body_motion.h"
 #include "rigid/rigid_scene.h"
+#include "rigid/wide_contacts.h"
 #include "threads/team.h"
 
 struct lks_world;
@@ -24,8 +25,9 @@ public:
 
 private:
     ContactBodies bodies_of(const Contact& contact);
+    WideContacts side_by_side(ContactStage stage);
     template <typename Use>
-    void in_contacts(const Use& use);
+    void in_contact_blocks(const Use& use);
     template <typename Use>
     void in_bundles(const Use& use);
     template <typename Use>
@@ -51,6 +53,8 @@ private:
     Move& move_of(std::uint32_t other);
     void apply_contact_moves(const FigureRange& figure);
     void project_joints(const FigureRange& figure);
+    void measure_contacts(const FigureBundle& bundle);
+    void measure_contacts(const FigureRange& figure);
     void project_contacts(const FigureRange& figure);
     void solve_strained(const FigureRange& figure);
     void solve_strained_trees(const FigureRange& figure);
