@@ -11,12 +11,21 @@ namespace {
 
 constexpr double g = 9.81;
 
+// Of a body, 1/s.
+struct Damping {
+    double linear = 0;
+    double angular = 0;
+};
+
 // What hangs or stands out from an anchor after twelve seconds, when its damping has brought it to rest.
 struct Soft {
-    Soft(const lks_joint_def& joint, const lks_body_shape& shape, const lks_vec3& place)
+    Soft(const lks_joint_def& joint, const lks_body_shape& shape, const lks_vec3& place,
+         const Damping& damping)
         : world(world_def(60, 20)) {
         const lks_body_id anchor = add_anchor(world, {});
         lks_body_def def = lks_default_body_def();
+        def.linear_damping = fixed(damping.linear);
+        def.angular_damping = fixed(damping.angular);
         def.never_sleeps = 1;
         body = add_body(world, shape, place, def);
         id = add_joint(world, joint, anchor, body);
@@ -30,19 +39,19 @@ struct Soft {
     lks_joint_id id{};
 };
 
-} // namespace
-
-TEST_CASE("a soft distance, and a soft hinge's point, give way by compliance times weight, however far") {
-    for (const lks_joint_kind kind : {LKS_JOINT_DISTANCE, LKS_JOINT_HINGE, LKS_JOINT_FIXED}) {
+void check_hanging(double joint_damping, const Damping& body_damping) {
+    for (const lks_joint_kind kind : {LKS_JOINT_DISTANCE, LKS_JOINT_BALL, LKS_JOINT_HINGE, LKS_JOINT_FIXED}) {
         for (const double compliance : {0.001, 0.002, 0.01}) { // a third of a metre, two thirds, three metres
             lks_joint_def joint = lks_default_joint_def();
             joint.kind = kind;
             joint.distance_max = fixed(1);
             joint.compliance = fixed(compliance);
-            joint.damping = fixed(100);
+            joint.damping = fixed(joint_damping);
             const bool hangs = kind == LKS_JOINT_DISTANCE;
-            const Soft soft(joint, ball_shape(0.2), hangs ? fixed(0, -1, 0) : lks_vec3{});
-            const double expected = compliance * mass_of(soft.world, soft.body) * g;
+            const Soft soft(joint, ball_shape(0.2), hangs ? fixed(0, -1, 0) : lks_vec3{}, body_damping);
+            // A body's damping takes its share of what gravity gave it in the substep.
+            const double pull = g * (1 - body_damping.linear / 1200);
+            const double expected = compliance * mass_of(soft.world, soft.body) * pull;
             const double found = soft.error();
             INFO("kind " << kind << ": " << found << " of " << expected << " m");
             CHECK(std::abs(found / expected - 1) < 1e-4);
@@ -50,8 +59,20 @@ TEST_CASE("a soft distance, and a soft hinge's point, give way by compliance tim
     }
 }
 
-TEST_CASE("a soft hinge and a soft fixed joint bend across by angular compliance times torque, however far") {
-    // An arm of 20 kg, a metre long, level at first; a hinge's axis lies along it.
+} // namespace
+
+TEST_CASE("soft distances, and the points of soft joints, give way by compliance times weight, however far") {
+    check_hanging(100, {});
+}
+
+TEST_CASE("without damping of their own, too, where the body's damping brings it to rest") {
+    check_hanging(0, {3, 0});
+}
+
+namespace {
+
+// An arm of 20 kg, a metre long, level at first; a hinge's axis lies along it.
+void check_bent(double joint_damping, const Damping& body_damping) {
     for (const lks_joint_kind kind : {LKS_JOINT_HINGE, LKS_JOINT_FIXED}) {
         for (const double compliance : {0.0005, 0.002, 0.01, 0.05}) {
             lks_joint_def joint = lks_default_joint_def();
@@ -59,8 +80,8 @@ TEST_CASE("a soft hinge and a soft fixed joint bend across by angular compliance
             joint.frame_a.rotation = joint.frame_b.rotation = about(0, 0, 1, 90);
             joint.frame_b.position = fixed(-0.5, 0, 0);
             joint.angular_compliance = fixed(compliance);
-            joint.angular_damping = fixed(20);
-            const Soft soft(joint, box_shape(0.5, 0.05, 0.1), fixed(0.5, 0, 0));
+            joint.angular_damping = fixed(joint_damping);
+            const Soft soft(joint, box_shape(0.5, 0.05, 0.1), fixed(0.5, 0, 0), body_damping);
             // θ = α·m·g·l·cos θ.
             const double torque = mass_of(soft.world, soft.body) * g * 0.5;
             double bent = 0;
@@ -73,4 +94,14 @@ TEST_CASE("a soft hinge and a soft fixed joint bend across by angular compliance
             CHECK(std::abs(found / bent - 1) < 1e-4);
         }
     }
+}
+
+} // namespace
+
+TEST_CASE("a soft hinge and a soft fixed joint bend across by angular compliance times torque, however far") {
+    check_bent(20, {});
+}
+
+TEST_CASE("without damping of their own, too, where the body's damping stops it turning") {
+    check_bent(0, {0, 12});
 }

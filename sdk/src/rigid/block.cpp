@@ -98,6 +98,11 @@ Vec3 soften(const Softness& s, const Vec3& error, const Vec3& motion, const Vec3
             soften(s, error.z, motion.z, push.z)};
 }
 
+// Of p = left/(W + α̃) with W of one at least W·p is the motion.
+std::int64_t greatest_step_of(const Softness& s) {
+    return greatest_step + fixed::multiply_shift(greatest_step, s.softness, 30);
+}
+
 bool exceeds(const Vec3& sum, std::int64_t greatest_sum) {
     return greatest_sum != 0 && fixed::length(sum) > static_cast<std::uint64_t>(greatest_sum);
 }
@@ -109,7 +114,7 @@ Scaled force_of_push(const StepRate& rate, const Scaled& greater_inverse_mass) {
 Vec3 next_push(const BlockInverse& inverse, const Softness& softness, const Vec3& error, const Vec3& motion,
                const Vec3& push) {
     Vec3 left = softness.softness != 0 ? soften(softness, error, motion, push) : error;
-    clamp_vector(left, greatest_step);
+    clamp_vector(left, greatest_step_of(softness));
     Vec3 next = push - solve(inverse, left);
     clamp_vector(next, greatest_push);
     return next;

@@ -36,6 +36,10 @@ std::int64_t soften(const Softness& s, std::int64_t error, std::int64_t motion, 
 fixed::Vec3 soften(const Softness& s, const fixed::Vec3& error, const fixed::Vec3& motion,
                    const fixed::Vec3& push);
 
+// How much of what a soft constraint's push leaves is taken at once: so much that it moves what it pushes as
+// far as a rigid one does. What it gives way by is no error, however far that is.
+std::int64_t greatest_step_of(const Softness& s);
+
 // Softnesses and pushes beyond this make no difference any more.
 std::int64_t bounded(const fixed::Scaled& value, int fraction_bits);
 // A World value as a number.

@@ -68,9 +68,8 @@ void project_distance(Joint& joint, Body& a, Body& b) {
     const RowSide side_a = push_side(a, joint.constants.shares.a, way.direction, lever_a, weight);
     const RowSide side_b = push_side(b, joint.constants.shares.b, way.direction, lever_b, weight);
     const std::int64_t motion = fixed::dot(way.direction, offset - joint.begin);
-    // A soft one may be as long as its load makes it: only what its push leaves is limited.
-    const std::int64_t left =
-        std::clamp(soften(joint.constants.points, error, motion, pushed), -greatest_step, greatest_step);
+    const std::int64_t most = greatest_step_of(joint.constants.points);
+    const std::int64_t left = std::clamp(soften(joint.constants.points, error, motion, pushed), -most, most);
     std::int64_t p = -divide(left, invert(weight));
     if (!rod) {
         // A rope only pulls, a strut only pushes.
