@@ -11,12 +11,6 @@ using namespace reference;
 
 namespace {
 
-lks_body_def with_friction(const lks_vec3& position, double friction = 0.5) {
-    lks_body_def def = at_rest(position);
-    def.static_friction = def.dynamic_friction = fixed(friction);
-    return def;
-}
-
 lks_body_shape at(lks_body_shape shape, const lks_vec3& position) {
     shape.transform.position = position;
     return shape;

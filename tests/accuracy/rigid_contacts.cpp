@@ -9,16 +9,6 @@
 using namespace support;
 using namespace reference;
 
-namespace {
-
-lks_body_def with_friction(const lks_vec3& position, double friction) {
-    lks_body_def def = at_rest(position);
-    def.static_friction = def.dynamic_friction = fixed(friction);
-    return def;
-}
-
-} // namespace
-
 TEST_CASE("a ball that bounces and then rolls is within 1e-9 m after a second, 1.5e-3 m after ten") {
     for (const int substeps : {8, 20}) {
         RigidScene scene(with_substeps(substeps));

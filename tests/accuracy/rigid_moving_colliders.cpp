@@ -13,12 +13,6 @@ using namespace reference;
 
 namespace {
 
-lks_body_def with_friction(const lks_vec3& position, double friction = 0.5) {
-    lks_body_def def = at_rest(position);
-    def.static_friction = def.dynamic_friction = fixed(friction);
-    return def;
-}
-
 lks_collider_def box_collider(const lks_vec3& half_extents, double friction = 0.5) {
     lks_collider_def def = lks_default_collider_def();
     def.shape = LKS_SHAPE_BOX;

@@ -9,12 +9,6 @@ using namespace reference;
 
 namespace {
 
-lks_body_def with_friction(const lks_vec3& position, double friction = 0.5) {
-    lks_body_def def = at_rest(position);
-    def.static_friction = def.dynamic_friction = fixed(friction);
-    return def;
-}
-
 // A stair of 17 cm above the ground, whose edge lies along z at x = 0.
 void add_step(RigidScene& scene, double friction = 0.5) {
     scene.add_ground(friction, friction, true);

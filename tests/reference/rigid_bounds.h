@@ -55,6 +55,12 @@ inline lks_body_def at_rest(const lks_vec3& position) {
     return def;
 }
 
+inline lks_body_def with_friction(const lks_vec3& position, double friction = 0.5) {
+    lks_body_def def = at_rest(position);
+    def.static_friction = def.dynamic_friction = support::fixed(friction);
+    return def;
+}
+
 inline lks_joint_def joint(std::uint32_t kind, const lks_vec3& point_a, const lks_vec3& point_b) {
     lks_joint_def def = lks_default_joint_def();
     def.kind = kind;

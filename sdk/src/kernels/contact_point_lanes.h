@@ -326,31 +326,29 @@ static_assert(offsetof(ContactPoint, separation) == offsetof(ContactPoint, core_
               sizeof(ContactRowSide) == 80 && offsetof(ContactRows, inverses) == 160);
 static_assert(offsetof(Contact, radius_b) == offsetof(Contact, shares) + 16);
 
-template <typename L>
-inline std::uint32_t begin_point_lanes(const ContactPointTask& task) {
+// Of all lanes: use(lanes) returns those that are left.
+template <typename L, typename Use>
+LKS_FORCE_INLINE std::uint32_t in_lanes(const ContactPointTask& task, const Use& use) {
     std::uint32_t left = 0;
     for (std::uint32_t first = 0; first < task.count; first += L::half) {
-        left |= ContactPointLanes<L>(task, first).begin();
+        left |= use(ContactPointLanes<L>(task, first));
     }
     return left;
+}
+
+template <typename L>
+inline std::uint32_t begin_point_lanes(const ContactPointTask& task) {
+    return in_lanes<L>(task, [](const ContactPointLanes<L>& lanes) { return lanes.begin(); });
 }
 
 template <typename L>
 inline std::uint32_t make_point_rows_lanes(const ContactPointTask& task, WideRows& rows) {
-    std::uint32_t left = 0;
-    for (std::uint32_t first = 0; first < task.count; first += L::half) {
-        left |= ContactPointLanes<L>(task, first).make_rows(rows);
-    }
-    return left;
+    return in_lanes<L>(task, [&](const ContactPointLanes<L>& lanes) { return lanes.make_rows(rows); });
 }
 
 template <typename L>
 inline std::uint32_t measure_point_lanes(const ContactPointTask& task) {
-    std::uint32_t left = 0;
-    for (std::uint32_t first = 0; first < task.count; first += L::half) {
-        left |= ContactPointLanes<L>(task, first).measure();
-    }
-    return left;
+    return in_lanes<L>(task, [](const ContactPointLanes<L>& lanes) { return lanes.measure(); });
 }
 
 template <typename L>

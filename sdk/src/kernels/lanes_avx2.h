@@ -56,32 +56,20 @@ struct LanesAvx2 {
     static Int* row(Int* rows, std::uint32_t particle) {
         return rows + 4 * std::size_t{particle};
     }
+    static void to_rows(const Register (&columns)[4], Register (&rows)[4]) {
+        const Register xy_02 = _mm256_unpacklo_epi64(columns[0], columns[1]);
+        const Register xy_13 = _mm256_unpackhi_epi64(columns[0], columns[1]);
+        const Register zw_02 = _mm256_unpacklo_epi64(columns[2], columns[3]);
+        const Register zw_13 = _mm256_unpackhi_epi64(columns[2], columns[3]);
+        rows[0] = _mm256_permute2x128_si256(xy_02, zw_02, 0x20);
+        rows[1] = _mm256_permute2x128_si256(xy_13, zw_13, 0x20);
+        rows[2] = _mm256_permute2x128_si256(xy_02, zw_02, 0x31);
+        rows[3] = _mm256_permute2x128_si256(xy_13, zw_13, 0x31);
+    }
     static void to_rows(const Register (&axes)[3], Register (&rows)[4]) {
-        const Register xy_02 = _mm256_unpacklo_epi64(axes[0], axes[1]);
-        const Register xy_13 = _mm256_unpackhi_epi64(axes[0], axes[1]);
-        const Register z_02 = _mm256_unpacklo_epi64(axes[2], set(0));
-        const Register z_13 = _mm256_unpackhi_epi64(axes[2], set(0));
-        rows[0] = _mm256_permute2x128_si256(xy_02, z_02, 0x20);
-        rows[1] = _mm256_permute2x128_si256(xy_13, z_13, 0x20);
-        rows[2] = _mm256_permute2x128_si256(xy_02, z_02, 0x31);
-        rows[3] = _mm256_permute2x128_si256(xy_13, z_13, 0x31);
+        to_rows({axes[0], axes[1], axes[2], set(0)}, rows);
     }
-    static void from_rows(const Register (&rows)[4], Register (&axes)[3]) {
-        const Register xz_01 = _mm256_unpacklo_epi64(rows[0], rows[1]);
-        const Register xz_23 = _mm256_unpacklo_epi64(rows[2], rows[3]);
-        const Register y_01 = _mm256_unpackhi_epi64(rows[0], rows[1]);
-        const Register y_23 = _mm256_unpackhi_epi64(rows[2], rows[3]);
-        axes[0] = _mm256_permute2x128_si256(xz_01, xz_23, 0x20);
-        axes[1] = _mm256_permute2x128_si256(y_01, y_23, 0x20);
-        axes[2] = _mm256_permute2x128_si256(xz_01, xz_23, 0x31);
-    }
-    // Four numbers from each lane's address on: address(lane).
-    template <typename Address>
-    static void load_rows(const Address& address, Register (&columns)[4]) {
-        const auto at = [&](std::uint32_t i) {
-            return _mm256_loadu_si256(reinterpret_cast<const Register*>(address(i)));
-        };
-        const Register rows[4] = {at(0), at(1), at(2), at(3)};
+    static void from_rows(const Register (&rows)[4], Register (&columns)[4]) {
         const Register xz_01 = _mm256_unpacklo_epi64(rows[0], rows[1]);
         const Register xz_23 = _mm256_unpacklo_epi64(rows[2], rows[3]);
         const Register yw_01 = _mm256_unpackhi_epi64(rows[0], rows[1]);
@@ -91,19 +79,28 @@ struct LanesAvx2 {
         columns[2] = _mm256_permute2x128_si256(xz_01, xz_23, 0x31);
         columns[3] = _mm256_permute2x128_si256(yw_01, yw_23, 0x31);
     }
+    static void from_rows(const Register (&rows)[4], Register (&axes)[3]) {
+        Register columns[4];
+        from_rows(rows, columns);
+        for (int axis = 0; axis < 3; ++axis) {
+            axes[axis] = columns[axis];
+        }
+    }
+    // Four numbers from each lane's address on: address(lane).
+    template <typename Address>
+    static void load_rows(const Address& address, Register (&columns)[4]) {
+        const auto at = [&](std::uint32_t i) {
+            return _mm256_loadu_si256(reinterpret_cast<const Register*>(address(i)));
+        };
+        from_rows({at(0), at(1), at(2), at(3)}, columns);
+    }
     template <typename Address>
     static void store_rows(const Address& address, const Register (&columns)[4]) {
-        const auto put = [&](std::uint32_t i, Register v) {
-            _mm256_storeu_si256(reinterpret_cast<Register*>(address(i)), v);
-        };
-        const Register xy_02 = _mm256_unpacklo_epi64(columns[0], columns[1]);
-        const Register xy_13 = _mm256_unpackhi_epi64(columns[0], columns[1]);
-        const Register zw_02 = _mm256_unpacklo_epi64(columns[2], columns[3]);
-        const Register zw_13 = _mm256_unpackhi_epi64(columns[2], columns[3]);
-        put(0, _mm256_permute2x128_si256(xy_02, zw_02, 0x20));
-        put(1, _mm256_permute2x128_si256(xy_13, zw_13, 0x20));
-        put(2, _mm256_permute2x128_si256(xy_02, zw_02, 0x31));
-        put(3, _mm256_permute2x128_si256(xy_13, zw_13, 0x31));
+        Register rows[4];
+        to_rows(columns, rows);
+        for (std::uint32_t i = 0; i < half; ++i) {
+            _mm256_storeu_si256(reinterpret_cast<Register*>(address(i)), rows[i]);
+        }
     }
     // Of both ends of half a group, along each axis.
     static void row_differences(const std::int64_t* rows, const std::uint32_t* ends, Register (&d)[3]) {

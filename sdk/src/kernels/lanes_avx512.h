@@ -69,6 +69,27 @@ struct LanesAvx512 {
     static Register high_quarters(Register a, Register b) {
         return _mm512_permutex2var_epi64(a, _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2), b);
     }
+    // Of rows 0 and 4, 1 and 5, and so on.
+    static void from_pairs(const Register (&pairs)[4], Register (&columns)[4]) {
+        const Register xz_0145 = _mm512_unpacklo_epi64(pairs[0], pairs[1]);
+        const Register xz_2367 = _mm512_unpacklo_epi64(pairs[2], pairs[3]);
+        const Register yw_0145 = _mm512_unpackhi_epi64(pairs[0], pairs[1]);
+        const Register yw_2367 = _mm512_unpackhi_epi64(pairs[2], pairs[3]);
+        columns[0] = low_quarters(xz_0145, xz_2367);
+        columns[1] = low_quarters(yw_0145, yw_2367);
+        columns[2] = high_quarters(xz_0145, xz_2367);
+        columns[3] = high_quarters(yw_0145, yw_2367);
+    }
+    static void to_pairs(const Register (&columns)[4], Register (&pairs)[4]) {
+        const Register xy_0246 = _mm512_unpacklo_epi64(columns[0], columns[1]);
+        const Register xy_1357 = _mm512_unpackhi_epi64(columns[0], columns[1]);
+        const Register zw_0246 = _mm512_unpacklo_epi64(columns[2], columns[3]);
+        const Register zw_1357 = _mm512_unpackhi_epi64(columns[2], columns[3]);
+        pairs[0] = low_quarters(xy_0246, zw_0246);
+        pairs[1] = low_quarters(xy_1357, zw_1357);
+        pairs[2] = high_quarters(xy_0246, zw_0246);
+        pairs[3] = high_quarters(xy_1357, zw_1357);
+    }
     // Four numbers from each lane's address on: address(lane).
     template <typename Address>
     static void load_rows(const Address& address, Register (&columns)[4]) {
@@ -78,18 +99,7 @@ struct LanesAvx512 {
             };
             return _mm512_inserti64x4(_mm512_castsi256_si512(at(i)), at(i + 4), 1);
         };
-        const Register of_04 = and_fourth_next(0);
-        const Register of_15 = and_fourth_next(1);
-        const Register of_26 = and_fourth_next(2);
-        const Register of_37 = and_fourth_next(3);
-        const Register xz_0145 = _mm512_unpacklo_epi64(of_04, of_15);
-        const Register xz_2367 = _mm512_unpacklo_epi64(of_26, of_37);
-        const Register yw_0145 = _mm512_unpackhi_epi64(of_04, of_15);
-        const Register yw_2367 = _mm512_unpackhi_epi64(of_26, of_37);
-        columns[0] = low_quarters(xz_0145, xz_2367);
-        columns[1] = low_quarters(yw_0145, yw_2367);
-        columns[2] = high_quarters(xz_0145, xz_2367);
-        columns[3] = high_quarters(yw_0145, yw_2367);
+        from_pairs({and_fourth_next(0), and_fourth_next(1), and_fourth_next(2), and_fourth_next(3)}, columns);
     }
     template <typename Address>
     static void store_rows(const Address& address, const Register (&columns)[4]) {
@@ -97,14 +107,11 @@ struct LanesAvx512 {
             _mm256_storeu_si256(reinterpret_cast<__m256i*>(address(i)), _mm512_castsi512_si256(v));
             _mm256_storeu_si256(reinterpret_cast<__m256i*>(address(i + 4)), _mm512_extracti64x4_epi64(v, 1));
         };
-        const Register xy_0246 = _mm512_unpacklo_epi64(columns[0], columns[1]);
-        const Register xy_1357 = _mm512_unpackhi_epi64(columns[0], columns[1]);
-        const Register zw_0246 = _mm512_unpacklo_epi64(columns[2], columns[3]);
-        const Register zw_1357 = _mm512_unpackhi_epi64(columns[2], columns[3]);
-        put(0, low_quarters(xy_0246, zw_0246));
-        put(1, low_quarters(xy_1357, zw_1357));
-        put(2, high_quarters(xy_0246, zw_0246));
-        put(3, high_quarters(xy_1357, zw_1357));
+        Register pairs[4];
+        to_pairs(columns, pairs);
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            put(i, pairs[i]);
+        }
     }
     // Of both ends of half a group, along each axis.
     static void row_differences(const std::int64_t* rows, const std::uint32_t* ends, Register (&d)[3]) {
@@ -114,25 +121,15 @@ struct LanesAvx512 {
         const auto and_fourth_next = [&](int i) {
             return _mm512_inserti64x4(_mm512_castsi256_si512(difference(i)), difference(i + 4), 1);
         };
-        const Register of_04 = and_fourth_next(0);
-        const Register of_15 = and_fourth_next(1);
-        const Register of_26 = and_fourth_next(2);
-        const Register of_37 = and_fourth_next(3);
-        const Register xz_0145 = _mm512_unpacklo_epi64(of_04, of_15);
-        const Register xz_2367 = _mm512_unpacklo_epi64(of_26, of_37);
-        const Register y_0145 = _mm512_unpackhi_epi64(of_04, of_15);
-        const Register y_2367 = _mm512_unpackhi_epi64(of_26, of_37);
-        d[0] = low_quarters(xz_0145, xz_2367);
-        d[1] = low_quarters(y_0145, y_2367);
-        d[2] = high_quarters(xz_0145, xz_2367);
+        Register columns[4];
+        from_pairs({and_fourth_next(0), and_fourth_next(1), and_fourth_next(2), and_fourth_next(3)}, columns);
+        for (int axis = 0; axis < 3; ++axis) {
+            d[axis] = columns[axis];
+        }
     }
     static void to_rows(const Register (&axes)[3], __m256i (&rows)[8]) {
-        const Register xy_0246 = _mm512_unpacklo_epi64(axes[0], axes[1]);
-        const Register xy_1357 = _mm512_unpackhi_epi64(axes[0], axes[1]);
-        const Register z_0246 = _mm512_unpacklo_epi64(axes[2], set(0));
-        const Register z_1357 = _mm512_unpackhi_epi64(axes[2], set(0));
-        const Register pairs[4] = {low_quarters(xy_0246, z_0246), low_quarters(xy_1357, z_1357),
-                                   high_quarters(xy_0246, z_0246), high_quarters(xy_1357, z_1357)};
+        Register pairs[4];
+        to_pairs({axes[0], axes[1], axes[2], set(0)}, pairs);
         for (int i = 0; i < 4; ++i) {
             rows[i] = _mm512_castsi512_si256(pairs[i]);
             rows[i + 4] = _mm512_extracti64x4_epi64(pairs[i], 1);
