@@ -41,17 +41,19 @@ typedef struct lks_joint_def {
     uint32_t kind;        /* an lks_joint_kind */
     lks_body_id body_a;   /* two different bodies, at least one of them dynamic */
     lks_body_id body_b;
-    lks_transform frame_a;        /* in a's frame; positions within ±64 m */
-    lks_transform frame_b;        /* in b's frame */
-    uint32_t bodies_collide;      /* 0: the two bodies don't collide with each other while the joint exists */
-    uint32_t reserved;            /* 0 */
-    lks_fixed swing_limit;        /* degrees, 0 .. 180; 180: none */
-    lks_fixed swing_limit_z;      /* degrees, 0 .. 180, where the cone is an ellipse: swing_limit towards the
-                                     frames' local x, this towards local z; negative: as swing_limit */
-    lks_fixed twist_min;          /* degrees, -180 .. twist_max; -180 and 180: none */
-    lks_fixed twist_max;          /* degrees, twist_min .. 180 */
-    lks_fixed distance_min;       /* metres, 0 .. distance_max */
-    lks_fixed distance_max;       /* metres, distance_min .. 64 */
+    lks_transform frame_a;   /* in a's frame; positions within ±64 m */
+    lks_transform frame_b;   /* in b's frame */
+    uint32_t bodies_collide; /* 0: the two bodies don't collide with each other while the joint exists */
+    uint32_t reserved;       /* 0 */
+    lks_fixed swing_limit;   /* degrees, 0 .. 180; 180: none */
+    lks_fixed swing_limit_z; /* degrees, 0 .. 180, where the cone is an ellipse: swing_limit towards the
+                                frames' local x, this towards local z; negative: as swing_limit */
+    lks_fixed twist_min;     /* degrees, -180 .. twist_max; -180 and 180: none */
+    lks_fixed twist_max;     /* degrees, twist_min .. 180 */
+    lks_fixed distance_min;  /* metres, 0 .. distance_max */
+    lks_fixed distance_max;  /* metres, distance_min .. 64 */
+    /* Of mass m (the lighter of the two bodies) and n substeps a second, what is softer than 2^20 / (m · n²)
+     * is as soft as that; angles likewise, with a moment of inertia. */
     lks_fixed compliance;         /* of the points, m/N, 0 .. 1000 */
     lks_fixed damping;            /* of soft points, N·s/m, 0 .. 1000000 */
     lks_fixed angular_compliance; /* of what hinges and fixed joints hold, rad/(N·m), 0 .. 1000 */
