@@ -11,9 +11,11 @@
 #include "fixed/formats.h"
 #include "fixed_samples.h"
 #include "kernels/compiled_kernels.h"
+#include "rigid_samples.h"
 #include "wide_kernels.h"
 
 using namespace lks;
+using test::any_vector;
 
 namespace {
 
@@ -30,10 +32,6 @@ fixed::Rotation rotation(test::Random& random) {
 std::int64_t length(test::Random& random) {
     const std::int64_t octave = coordinate_one << random.below(6);
     return (octave >> random.below(13)) + up_to(random, coordinate_one >> 9);
-}
-
-fixed::Vec3 any_vector(test::Random& random, int width) {
-    return {random.any_signed(width), random.any_signed(width), random.any_signed(width)};
 }
 
 ContactFrame make_frame(test::Random& random, lks_shape_kind kind) {

@@ -6,24 +6,18 @@
 
 #include "fixed_samples.h"
 #include "rigid/wide_contacts.h"
+#include "rigid_samples.h"
 #include "wide_kernels.h"
 
 using namespace lks;
 using fixed::Direction;
 using fixed::Vec3;
+using test::any_orientation;
+using test::any_vector;
 
 namespace {
 
 const MotionRate rate{make_step_rate(60, 8, 1)};
-
-Vec3 any_vector(test::Random& random, int width) {
-    return {random.any_signed(width), random.any_signed(width), random.any_signed(width)};
-}
-
-Quaternion any_orientation(test::Random& random) {
-    const auto part = [&] { return static_cast<std::int32_t>(random.any_signed(30)); };
-    return widen(fixed::normalise(fixed::Rotation{part(), part(), part(), part() | 1}));
-}
 
 Direction any_direction(test::Random& random) {
     fixed::NormalisedVector found{};
@@ -137,14 +131,10 @@ private:
     int spread_;
 };
 
-bool same(const fixed::Direction& p, const fixed::Direction& q) {
-    return p == q;
-}
-
 bool same(const ContactRowSide& p, const ContactRowSide& q, int count) {
     bool all = p.turn_shift == q.turn_shift && p.arm_shift == q.arm_shift;
     for (int i = 0; i < count; ++i) {
-        all = all && same(p.rows[i].arm, q.rows[i].arm) && same(p.rows[i].turn, q.rows[i].turn);
+        all = all && p.rows[i].arm == q.rows[i].arm && p.rows[i].turn == q.rows[i].turn;
     }
     return all;
 }

@@ -10,10 +10,13 @@
 #include "rigid/articulation.h"
 #include "rigid/figures.h"
 #include "rigid/wide_trees.h"
+#include "rigid_samples.h"
 #include "wide_kernels.h"
 
 using namespace lks;
 using fixed::Vec3;
+using test::any_orientation;
+using test::any_vector;
 
 namespace {
 
@@ -134,18 +137,9 @@ private:
         return joint;
     }
 
-    static Vec3 any_vector(test::Random& random, int width) {
-        return {random.any_signed(width), random.any_signed(width), random.any_signed(width)};
-    }
-
     // Up to six units out.
     static Vec3 any_point(test::Random& random, std::int32_t scale) {
         return any_vector(random, world_fraction_bits + scale + 1);
-    }
-
-    static Quaternion any_orientation(test::Random& random) {
-        const auto part = [&] { return static_cast<std::int32_t>(random.any_signed(30)); };
-        return widen(fixed::normalise(fixed::Rotation{part(), part(), part(), part() | 1}));
     }
 };
 

@@ -43,8 +43,8 @@ public:
         load<&ContactPoint::core_a>(points_, 32, last);
         const Vector core_a{columns[0], columns[1], columns[2]};
         core_b_ = {columns[3], last[0], last[1]};
-        far_ =
-            L::bit_or(L::bit_or(not_within<58>(core_a), not_within<58>(core_b_)), not_within<60>(between_));
+        far_ = L::bit_or(L::bit_or(V::template not_within<58>(core_a), V::template not_within<58>(core_b_)),
+                         V::template not_within<60>(between_));
         from_cores_ = {a_.rotate(core_a), b_.rotate(core_b_)};
     }
 
@@ -124,13 +124,6 @@ private:
         return L::bit_or(L::bit_and(low, L::set(0xffffffff)), L::template shift_left<32>(high));
     }
 
-    // Not zero where a component is not below 2^bits.
-    template <int bits>
-    LKS_FORCE_INLINE static R not_within(const Vector& v) {
-        const R lift = L::set(std::int64_t{1} << bits);
-        const R all = L::bit_or(L::bit_or(L::add(v.x, lift), L::add(v.y, lift)), L::add(v.z, lift));
-        return L::bit_and(all, L::set(static_cast<std::int64_t>(~((std::uint64_t{2} << bits) - 1))));
-    }
     // Negative where it is less than this.
     LKS_FORCE_INLINE static R below(R v, std::int64_t least) { return L::subtract(v, L::set(least)); }
     LKS_FORCE_INLINE static R above(R v, std::int64_t most) { return L::subtract(L::set(most), v); }

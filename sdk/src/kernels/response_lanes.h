@@ -86,13 +86,6 @@ private:
     LKS_FORCE_INLINE static Vector constant(const std::int64_t (&v)[3]) {
         return {L::set(v[0]), L::set(v[1]), L::set(v[2])};
     }
-    // Not zero where a component is not below 2^bits.
-    template <int bits>
-    LKS_FORCE_INLINE static R not_within(const Vector& v) {
-        const R lift = L::set(std::int64_t{1} << bits);
-        const R all = L::bit_or(L::bit_or(L::add(v.x, lift), L::add(v.y, lift)), L::add(v.z, lift));
-        return L::bit_and(all, L::set(static_cast<std::int64_t>(~((std::uint64_t{2} << bits) - 1))));
-    }
 
     using Matrix = std::int64_t[3][3];
     LKS_FORCE_INLINE static Vector rotate(const Matrix& m, const Vector& v) {
@@ -111,12 +104,12 @@ private:
     }
 
     LKS_FORCE_INLINE Way find_way(const Vector& position, const Vector& start, R& far) const {
-        far = L::bit_or(not_within<62>(position), not_within<62>(start));
+        far = L::bit_or(V::template not_within<62>(position), V::template not_within<62>(start));
         Way way;
         way.end = local(task_.end_rotation, task_.end_centre, position, far);
         way.start = local(task_.start_rotation, task_.start_centre, start, far);
         way.motion = V::subtract(way.end, way.start);
-        far = L::bit_or(far, not_within<59>(way.motion));
+        far = L::bit_or(far, V::template not_within<59>(way.motion));
         return way;
     }
     LKS_FORCE_INLINE Vector local(const Matrix& rotation, const std::int64_t (&centre)[3], const Vector& v,
@@ -127,14 +120,14 @@ private:
             Vector relative =
                 V::subtract({half(v.x), half(v.y), half(v.z)},
                             {L::set(centre[0] >> 1), L::set(centre[1] >> 1), L::set(centre[2] >> 1)});
-            far = L::bit_or(far, not_within<60>(relative));
+            far = L::bit_or(far, V::template not_within<60>(relative));
             if (task_.turned) {
                 relative = rotate_back(rotation, relative);
             }
             return V::add(relative, relative);
         } else {
             const Vector relative = V::subtract(v, constant(centre));
-            far = L::bit_or(far, not_within<61>(relative));
+            far = L::bit_or(far, V::template not_within<61>(relative));
             return task_.turned ? rotate_back(rotation, relative) : relative;
         }
     }
@@ -224,8 +217,9 @@ private:
         const R idle = L::bit_or(L::equal(new_depth, zero),
                                  L::equal(L::bit_or(L::bit_or(sliding.x, sliding.y), sliding.z), zero));
         const typename N::Unit slide = N::normalise(sliding);
-        const R odd = L::bit_or(L::bit_or(slide.tiny, L::subtract(greatest_new_depth_, new_depth)),
-                                L::exclusive_or(L::equal(not_within<59>(sliding), zero), L::set(-1)));
+        const R odd =
+            L::bit_or(L::bit_or(slide.tiny, L::subtract(greatest_new_depth_, new_depth)),
+                      L::exclusive_or(L::equal(V::template not_within<59>(sliding), zero), L::set(-1)));
         left = L::bit_or(left, L::bit_and(hit, L::and_not(idle, odd)));
         const R loss = L::minimum_signed(times_friction(task_.dynamic_friction, new_depth), slide.length);
         const R slips = L::subtract(times_friction(task_.static_friction, new_depth), slide.length);

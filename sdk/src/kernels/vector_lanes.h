@@ -29,6 +29,13 @@ struct VectorLanes {
     LKS_FORCE_INLINE static Vector clamp(const Vector& v, std::int64_t limit) {
         return {clamp(v.x, limit), clamp(v.y, limit), clamp(v.z, limit)};
     }
+    // Not zero where a component is not below 2^bits.
+    template <int bits>
+    LKS_FORCE_INLINE static R not_within(const Vector& v) {
+        const R lift = L::set(std::int64_t{1} << bits);
+        const R all = L::bit_or(L::bit_or(L::add(v.x, lift), L::add(v.y, lift)), L::add(v.z, lift));
+        return L::bit_and(all, L::set(static_cast<std::int64_t>(~((std::uint64_t{2} << bits) - 1))));
+    }
     // v / 2^count, rounded down; any v.
     template <int count>
     LKS_FORCE_INLINE static R shift_down(R v) {
