@@ -127,10 +127,11 @@ private:
 // Less than nothing: they have to part, by fifteen times what is to be undone a second, at most a
 // thirty-second of it at once.
 std::int64_t allowed_motion(std::int64_t separation, bool jointed, const MotionRate& rate) {
-    const std::int64_t depth = -separation - allowed_overlap;
-    if (depth <= 0 || !jointed) {
+    if (separation >= -allowed_overlap || !jointed) {
         return std::max<std::int64_t>(separation, 0);
     }
+    constexpr std::int64_t deepest = 32 * greatest_parting; // from here on all three are at their most
+    const std::int64_t depth = std::min(-(separation + allowed_overlap), deepest);
     const std::int64_t n = rate.substeps_per_second;
     return -std::min({depth / 32, depth * 15 / n, greatest_parting / n});
 }

@@ -111,10 +111,11 @@ void measure_middle(Contact& contact) {
     if (contact.active_count <= 1) {
         return;
     }
+    constexpr std::int64_t greatest_gap = std::int64_t{1} << 60; // so that four have a sum
     std::int64_t sum = 0;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         if (contact.points[i].active) {
-            sum += contact.points[i].gap;
+            sum += std::clamp(contact.points[i].gap, -greatest_gap, greatest_gap);
         }
     }
     contact.middle_gap = sum / static_cast<std::int64_t>(contact.active_count);

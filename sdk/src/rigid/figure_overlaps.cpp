@@ -143,9 +143,10 @@ private:
             if (!point.active) {
                 continue;
             }
-            const std::int64_t beyond = -point.separation - allowed_overlap;
-            const std::int64_t own = jointed && beyond > 0 ? std::min(beyond / share_a_tick, most_)
-                                                           : std::min<std::int64_t>(-point.separation, 0);
+            const std::int64_t own =
+                jointed && point.separation < -allowed_overlap
+                    ? std::min(-(point.separation + allowed_overlap) / share_a_tick, most_)
+                    : -std::max<std::int64_t>(point.separation, 0);
             parted = any ? std::max(parted, own) : own;
             any = true;
         }
