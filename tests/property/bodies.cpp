@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "support/bodies.h"
+#include "support/sanitised.h"
 
 using namespace support;
 
@@ -233,7 +234,7 @@ TEST_CASE("ten boxes upon each other stand for an hour") {
     }
 }
 
-TEST_CASE("towers whose boxes may not sleep stand") {
+TEST_CASE("towers whose boxes may not sleep stand" * doctest::skip(support::sanitised)) {
     struct Tower {
         int boxes;
         std::uint32_t substeps;
@@ -263,7 +264,8 @@ TEST_CASE("towers whose boxes may not sleep stand") {
     }
 }
 
-TEST_CASE("a tower of pairs that joints hold together stands, and may not sleep") {
+TEST_CASE("a tower of pairs that joints hold together stands, and may not sleep" *
+          doctest::skip(support::sanitised)) {
     struct Tower {
         int pairs;
         std::uint32_t substeps;

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "support/sanitised.h"
+
 namespace lks::test {
 
 class Random {
@@ -51,18 +53,11 @@ inline bool long_run() {
     return value != nullptr && std::strcmp(value, "1") == 0;
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define LKS_TEST_SANITISED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define LKS_TEST_SANITISED 1
-#endif
-#endif
-
-// Ten million of each. Unoptimised and sanitised builds, which are there to find other things, take a tenth.
+// Ten million of each. Unoptimised and sanitised builds, which are there to find other things, and emulators,
+// which are twenty times as slow, take a tenth.
 inline std::uint64_t sample_count() {
-#if (defined(__OPTIMIZE__) || defined(NDEBUG)) && !defined(LKS_TEST_SANITISED)
-    return 10'000'000;
+#if (defined(__OPTIMIZE__) || defined(NDEBUG)) && !defined(LKS_TEST_EMULATED)
+    return support::sanitised ? 1'000'000 : 10'000'000;
 #else
     return 1'000'000;
 #endif

@@ -23,6 +23,11 @@ struct Level {
 #else
 #define LKS_NEON_KERNELS nullptr
 #endif
+#if defined(LKS_HAS_AVX512)
+#define LKS_AVX512_KERNELS &kernels_avx512
+#else
+#define LKS_AVX512_KERNELS nullptr
+#endif
 #if defined(LKS_HAS_WASM)
 #define LKS_WASM_KERNELS &kernels_wasm
 #else
@@ -34,7 +39,7 @@ constexpr Level levels[] = {
     {LKS_SIMD_SCALAR, "scalar", &kernels_scalar},
     {LKS_SIMD_SSE41, "sse4.1", LKS_X86_KERNELS(kernels_sse41)},
     {LKS_SIMD_AVX2, "avx2", LKS_X86_KERNELS(kernels_avx2)},
-    {LKS_SIMD_AVX512, "avx512", LKS_X86_KERNELS(kernels_avx512)},
+    {LKS_SIMD_AVX512, "avx512", LKS_AVX512_KERNELS},
     {LKS_SIMD_NEON, "neon", LKS_NEON_KERNELS},
     {LKS_SIMD_WASM, "wasm", LKS_WASM_KERNELS},
 };
