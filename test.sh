@@ -11,10 +11,11 @@ Installs what is missing, builds into build/ and runs all tests: the SDK's own, 
 the states again from clang and from g++ without SIMD or floating-point registers, programs outside the tree
 that link the installed library, and the checks of the sources. Some twelve minutes on two cores.
 
-  --portability  also g++ and clang at every -O, with -ffast-math and without SIMD, address,
-                 undefined-behaviour and thread sanitizers, and the golden states on aarch64, 32-bit arm,
-                 s390x, Windows and WebAssembly, under qemu-user, wine and node: some fifty minutes
-  --long         also the exhaustive sweeps
+  --portability  also g++ and clang with -O0, g++ with -ffast-math, address, undefined-behaviour and thread
+                 sanitizers, and the golden states on aarch64, 32-bit arm, s390x, Windows and WebAssembly,
+                 under qemu-user, wine and node: some fifty minutes
+  --long         also the exhaustive sweeps, and with --portability g++ and clang at every -O, clang with
+                 -ffast-math, g++ without SIMD, and WebAssembly without SIMD
   --help         this text
 
   ./test.sh -- -L determinism      only the tests with this label
@@ -24,16 +25,21 @@ TEXT
 
 sets=(build render bench test)
 portability=OFF
+long=no
 while [ $# -gt 0 ]; do
     case "$1" in
         --portability) portability=ON; sets+=(portability) ;;
-        --long) export LOCKSTITCH_LONG=1 ;;
+        --long) export LOCKSTITCH_LONG=1; long=yes ;;
         --help | -h) usage; exit 0 ;;
         --) shift; break ;;
         *) echo "The option '$1' does not exist; ./test.sh --help lists them." >&2; exit 2 ;;
     esac
     shift
 done
+
+if [ "$portability$long" = ONyes ]; then
+    portability=ALL
+fi
 
 scripts/dependencies.sh "${sets[@]}"
 cmake --preset release -DLOCKSTITCH_TESTS=ON -DLOCKSTITCH_PORTABILITY="$portability" --log-level=WARNING
