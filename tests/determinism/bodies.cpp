@@ -8,6 +8,7 @@
 
 #include "support/bodies.h"
 #include "support/builders.h"
+#include "support/sanitised.h"
 
 using namespace support;
 
@@ -378,7 +379,8 @@ TEST_CASE("figures that are held by a hand or led by a bone have the bits of pla
     check_lanes(hashes_of);
 }
 
-TEST_CASE("a pile saved as it lands goes on for 600 ticks with other workers and instructions") {
+TEST_CASE("a pile saved as it lands goes on for 600 ticks with other workers and instructions" *
+          doctest::skip(support::sanitised)) {
     const auto fill = [](World& world, int count) {
         add_ground(world);
         for (int i = 0; i < count; ++i) {

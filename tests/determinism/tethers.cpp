@@ -4,12 +4,13 @@
 #include <vector>
 
 #include "support/builders.h"
+#include "support/sanitised.h"
 
 using namespace support;
 
 namespace {
 
-constexpr int ticks = 40;
+constexpr int ticks = support::sanitised ? 20 : 40;
 constexpr std::uint32_t side = 148; // large with every instruction set
 
 // Large enough for blocks, so that groups are cut by them; a row of anchors, of which few groups have one

@@ -225,7 +225,7 @@ void compare(const Kernels& kernels, std::uint64_t seed, Seen& seen) {
 } // namespace
 
 TEST_CASE("trees of joints: side by side they are solved to the bit as by themselves") {
-    const std::uint64_t most = test::sample_count() / 1'000;
+    const std::uint64_t most = test::sample_count() / 100;
     const std::uint64_t samples = test::long_run() ? 200'000 : std::min<std::uint64_t>(most, 2'000);
     for (const Kernels* kernels : tree_kernels()) {
         INFO(simd_name(kernels->level));
