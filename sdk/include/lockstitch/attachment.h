@@ -39,7 +39,7 @@ typedef struct lks_attachment_def {
     uint32_t vertex;
     uint32_t other_vertex;
     lks_vec3 point;       /* in the body's frame, metres, within ±64 m */
-    lks_fixed compliance; /* m/N, 0 .. 1000; at most 2^20 / (m · n²) counts, m being the mass of the lighter
+    lks_fixed compliance; /* m/N, 0 .. 1000; at most 2^30 / (m · n²) counts, m being the mass of the lighter
                              side and n the substeps a second */
     lks_fixed damping;    /* where it is soft, N·s/m, 0 .. 1000000 */
     lks_fixed break_force; /* N, the mean of a tick: beyond it the attachment is removed, with an event;

@@ -52,7 +52,7 @@ typedef struct lks_joint_def {
     lks_fixed twist_max;     /* degrees, twist_min .. 180 */
     lks_fixed distance_min;  /* metres, 0 .. distance_max */
     lks_fixed distance_max;  /* metres, distance_min .. 64 */
-    /* Of mass m (the lighter of the two bodies) and n substeps a second, what is softer than 2^20 / (m · n²)
+    /* Of mass m (the lighter of the two bodies) and n substeps a second, what is softer than 2^30 / (m · n²)
      * is as soft as that; angles likewise, with a moment of inertia. */
     lks_fixed compliance;         /* of the points, m/N, 0 .. 1000 */
     lks_fixed damping;            /* of soft points, N·s/m, 0 .. 1000000 */

@@ -62,8 +62,8 @@ Scaled world_value(std::int64_t value) {
     return Scaled::from_fixed(static_cast<std::uint64_t>(value), world_fraction_bits);
 }
 
-std::int64_t bounded(const Scaled& value, int fraction_bits) {
-    return std::min(value.to_i64_fixed(fraction_bits), std::int64_t{1} << 50);
+std::int64_t softness_of(const Scaled& value) {
+    return std::min(value.to_i64_fixed(30), greatest_softness);
 }
 
 std::int64_t greatest_sum(std::int64_t limit, const Scaled& push_of_one, const StepRate& rate) {
@@ -83,7 +83,7 @@ Softness make_softness(std::int64_t compliance, std::int64_t damping, const Scal
     s.error_share = static_cast<std::int32_t>((one / stretched).to_i64_fixed(30));
     s.motion_share = direction_one - s.error_share;
     s.softness =
-        bounded(world_value(compliance) * inverse_h * inverse_h / greater_inverse_mass / stretched, 30);
+        softness_of(world_value(compliance) * inverse_h * inverse_h / greater_inverse_mass / stretched);
     return s;
 }
 
@@ -100,7 +100,9 @@ Vec3 soften(const Softness& s, const Vec3& error, const Vec3& motion, const Vec3
 
 // Of p = left/(W + α̃) with W of one at least W·p is the motion.
 std::int64_t greatest_step_of(const Softness& s) {
-    return greatest_step + fixed::multiply_shift(greatest_step, s.softness, 30);
+    return std::min(
+        fixed::saturating_add(greatest_step, fixed::multiply_shift(greatest_step, s.softness, 30)),
+        greatest_left);
 }
 
 bool exceeds(const Vec3& sum, std::int64_t greatest_sum) {

@@ -20,13 +20,18 @@ struct BlockInverse {
 BlockInverse invert_block(const std::int64_t (&k)[6]);
 fixed::Vec3 solve(const BlockInverse& inverse, const fixed::Vec3& error);
 
-// XPBD eq. 26 divided by 1 + γ: the shares of the error and of the substep's motion, and α̃ / (1 + γ); as
-// softness counts in the greater inverse mass, 30 fraction bits.
+// XPBD eq. 26 divided by 1 + γ: the shares of the error and of the substep's motion, and α̃ / (1 + γ).
 struct Softness {
-    std::int64_t softness = 0;
+    std::int64_t softness = 0; // softness_of
     std::int32_t error_share = direction_one;
     std::int32_t motion_share = 0;
 };
+
+// What a constraint gives way by counts in the greater inverse mass of its sides, 30 fraction bits. Beyond
+// 2^30 it makes no difference any more: a spring of such a softness swings once in 172 s at 1200 substeps a
+// second.
+inline constexpr std::int64_t greatest_softness = std::int64_t{1} << 60;
+std::int64_t softness_of(const fixed::Scaled& value);
 
 // World m/N and N·s/m.
 Softness make_softness(std::int64_t compliance, std::int64_t damping,
@@ -36,12 +41,13 @@ std::int64_t soften(const Softness& s, std::int64_t error, std::int64_t motion, 
 fixed::Vec3 soften(const Softness& s, const fixed::Vec3& error, const fixed::Vec3& motion,
                    const fixed::Vec3& push);
 
-// How much of what a soft constraint's push leaves is taken at once: so much that it moves what it pushes as
-// far as a rigid one does. What it gives way by is no error, however far that is.
+// What of a soft constraint's push is left to be made up for is never more than this, World (32 km):
+// `divide` has room for it (rigid/pair.h).
+inline constexpr std::int64_t greatest_left = std::int64_t{1} << (world_fraction_bits + 15);
+// How much of it is taken at once: so much that it moves what it pushes as far as a rigid one does. What it
+// gives way by is no error, however far that is.
 std::int64_t greatest_step_of(const Softness& s);
 
-// Softnesses and pushes beyond this make no difference any more.
-std::int64_t bounded(const fixed::Scaled& value, int fraction_bits);
 // A World value as a number.
 fixed::Scaled world_value(std::int64_t value);
 // The most that the pushes of a tick's substeps may add up to where a force, or torque, that pushes by

@@ -47,11 +47,11 @@ void set_forces(JointConstants& c, const JointDescription& d, const fixed::Scale
     const fixed::Scaled by_reach = one.times_power_of_two(2 * c.reach);
     c.points = make_softness(d.compliance, d.damping, greater, rate);
     c.angular_softness =
-        bounded(world_value(d.angular_compliance) * inverse_h * inverse_h * by_reach / greater, 30);
+        softness_of(world_value(d.angular_compliance) * inverse_h * inverse_h * by_reach / greater);
     c.limits =
         make_softness(d.limits.compliance, d.limits.damping, greater.times_power_of_two(-2 * c.reach), rate);
     if (d.angular_damping != 0) {
-        c.drag_softness = bounded(by_reach * inverse_h / (world_value(d.angular_damping) * greater), 30);
+        c.drag_softness = softness_of(by_reach * inverse_h / (world_value(d.angular_damping) * greater));
         c.drag_softness = std::max<std::int64_t>(c.drag_softness, 1);
     }
     // A force F over a substep is a push of F·h²·w; a torque the same, of angles at a radius of 2^reach m.
@@ -60,7 +60,8 @@ void set_forces(JointConstants& c, const JointDescription& d, const fixed::Scale
     c.break_push = greatest_sum(d.break_force, force_push, rate);
     c.break_turn = greatest_sum(d.break_torque, torque_push, rate);
     const bool motor = d.motor_torque != 0;
-    c.grip = bounded(world_value(motor ? d.motor_torque : d.friction) * torque_push, world_fraction_bits);
+    const fixed::Scaled grip = world_value(motor ? d.motor_torque : d.friction) * torque_push;
+    c.grip = std::min(grip.to_i64_fixed(world_fraction_bits), greatest_push);
     if (motor) {
         const fixed::Scaled response = world_value(d.motor_response) * inverse_h; // in substeps
         // What is to be made up for in a substep must be less than what swings lose in it.

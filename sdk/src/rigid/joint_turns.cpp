@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "collide/saturation.h"
 #include "fixed/arc_tangent.h"
+#include "rigid/body_motion.h"
 #include "rigid/joint_frames.h"
 
 namespace lks {
@@ -126,7 +128,9 @@ Vec3 left_to_turn(const Joint& joint, const Body& a, const Body& b) {
     };
     const Vec3 angle = joint.description.kind == LKS_JOINT_HINGE ? soft_axes_apart(joint, a, b)
                                                                  : soft_frames_apart(joint, a, b);
-    return angle + Vec3{soft(joint.turn.x), soft(joint.turn.y), soft(joint.turn.z)};
+    Vec3 left = saturating_add(angle, Vec3{soft(joint.turn.x), soft(joint.turn.y), soft(joint.turn.z)});
+    clamp_vector(left, greatest_left);
+    return left;
 }
 
 } // namespace

@@ -39,7 +39,7 @@ struct Inverse {
 
 // W: 30 fraction bits, above zero.
 Inverse invert(std::int64_t weight);
-// value / W to the nearest; saturates.
+// value / W to the nearest, of values below 2^56; saturates.
 std::int64_t divide(std::int64_t value, const Inverse& inverse);
 
 // One body's part in a row.
