@@ -11,7 +11,7 @@ Installs what is missing, builds into build/ and runs all tests: the SDK's own, 
 the states again from clang and from g++ without SIMD or floating-point registers, programs outside the tree
 that link the installed library, and the checks of the sources. Some twelve minutes on two cores.
 
-  --portability  also g++ and clang with -O0, g++ with -ffast-math, address, undefined-behaviour and thread
+  --portability  also g++ with -O0 and with -ffast-math, address, undefined-behaviour and thread
                  sanitizers, and the golden states on aarch64, 32-bit arm, s390x, Windows and WebAssembly,
                  under qemu-user, wine and node: some fifty minutes
   --long         also the exhaustive sweeps, and with --portability g++ and clang at every -O, clang with
