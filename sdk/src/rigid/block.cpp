@@ -87,10 +87,15 @@ Softness make_softness(std::int64_t compliance, std::int64_t damping, const Scal
     return s;
 }
 
+std::int64_t soften(std::int64_t softness, std::int64_t error, std::int64_t push) {
+    return std::clamp(fixed::saturating_add(error, fixed::multiply_shift(push, softness, 30)), -greatest_left,
+                      greatest_left);
+}
+
 std::int64_t soften(const Softness& s, std::int64_t error, std::int64_t motion, std::int64_t push) {
-    return fixed::saturating_add(fixed::saturating_add(fixed::scale_component(s.error_share, error),
-                                                       fixed::multiply_shift(push, s.softness, 30)),
-                                 fixed::scale_component(s.motion_share, motion));
+    const std::int64_t shares = fixed::saturating_add(fixed::scale_component(s.error_share, error),
+                                                      fixed::scale_component(s.motion_share, motion));
+    return soften(s.softness, shares, push);
 }
 
 Vec3 soften(const Softness& s, const Vec3& error, const Vec3& motion, const Vec3& push) {
@@ -100,9 +105,7 @@ Vec3 soften(const Softness& s, const Vec3& error, const Vec3& motion, const Vec3
 
 // Of p = left/(W + α̃) with W of one at least W·p is the motion.
 std::int64_t greatest_step_of(const Softness& s) {
-    return std::min(
-        fixed::saturating_add(greatest_step, fixed::multiply_shift(greatest_step, s.softness, 30)),
-        greatest_left);
+    return soften(s.softness, greatest_step, greatest_step);
 }
 
 bool exceeds(const Vec3& sum, std::int64_t greatest_sum) {

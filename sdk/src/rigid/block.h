@@ -36,15 +36,16 @@ std::int64_t softness_of(const fixed::Scaled& value);
 // World m/N and N·s/m.
 Softness make_softness(std::int64_t compliance, std::int64_t damping,
                        const fixed::Scaled& greater_inverse_mass, const StepRate& rate);
-// c·C + α̃/(1+γ)·λ + γ/(1+γ)·Δ; saturates.
+// What a soft constraint leaves to be made up for, within `greatest_left` (World, 32 km), for which `divide`
+// has room (rigid/pair.h). Without damping C + α̃·λ:
+inline constexpr std::int64_t greatest_left = std::int64_t{1} << (world_fraction_bits + 15);
+std::int64_t soften(std::int64_t softness, std::int64_t error, std::int64_t push);
+// with damping c·C + α̃/(1+γ)·λ + γ/(1+γ)·Δ.
 std::int64_t soften(const Softness& s, std::int64_t error, std::int64_t motion, std::int64_t push);
 fixed::Vec3 soften(const Softness& s, const fixed::Vec3& error, const fixed::Vec3& motion,
                    const fixed::Vec3& push);
 
-// What of a soft constraint's push is left to be made up for is never more than this, World (32 km):
-// `divide` has room for it (rigid/pair.h).
-inline constexpr std::int64_t greatest_left = std::int64_t{1} << (world_fraction_bits + 15);
-// How much of it is taken at once: so much that it moves what it pushes as far as a rigid one does. What it
+// How much of that is taken at once: so much that it moves what it pushes as far as a rigid one does. What it
 // gives way by is no error, however far that is.
 std::int64_t greatest_step_of(const Softness& s);
 

@@ -1,7 +1,5 @@
 #include "rigid/joint_frames.h"
 
-#include <algorithm>
-
 #include "fixed/arc_tangent.h"
 
 namespace lks {
@@ -58,8 +56,7 @@ std::int64_t TurnRow::turn_by(std::int64_t angle) const {
 
 void turn_back(const Joint& joint, Body& a, Body& b, const Direction& axis, std::int64_t angle,
                std::int64_t softness, Vec3& push) {
-    const std::int64_t soft = softness == 0 ? 0 : fixed::multiply_shift(fixed::dot(axis, push), softness, 30);
-    const std::int64_t left = std::clamp(fixed::saturating_add(angle, soft), -greatest_left, greatest_left);
+    const std::int64_t left = soften(softness, angle, fixed::dot(axis, push));
     const TurnRow row(joint, a, b, axis, softness);
     push = push + fixed::scale(axis, row.turn_by(-left));
     clamp_vector(push, greatest_push);

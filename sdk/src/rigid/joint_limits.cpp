@@ -84,9 +84,7 @@ bool are_soft(const Joint& joint) {
 // What has to be turned back, where `beyond` is now, and `start` was when the substep began; neither is less
 // than zero but where it was turned back too far.
 std::int64_t to_turn_back(const Joint& joint, std::int64_t beyond, std::int64_t start, std::int64_t push) {
-    return are_soft(joint) ? std::clamp(soften(joint.constants.limits, beyond, beyond - start, -push),
-                                        -greatest_left, greatest_left)
-                           : beyond - start;
+    return are_soft(joint) ? soften(joint.constants.limits, beyond, beyond - start, -push) : beyond - start;
 }
 
 void hold_swing(Joint& joint, Body& a, Body& b) {

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "collide/saturation.h"
 #include "fixed/arc_tangent.h"
-#include "rigid/body_motion.h"
 #include "rigid/joint_frames.h"
 
 namespace lks {
@@ -123,14 +121,11 @@ Vec3 left_to_turn(const Joint& joint, const Body& a, const Body& b) {
     if (keeps_turn(joint)) {
         return angle_of(turned_apart(joint, a, b) - joint.turn_start);
     }
-    const auto soft = [&](std::int64_t c) {
-        return fixed::multiply_shift(c, joint.constants.angular_softness, 30);
-    };
     const Vec3 angle = joint.description.kind == LKS_JOINT_HINGE ? soft_axes_apart(joint, a, b)
                                                                  : soft_frames_apart(joint, a, b);
-    Vec3 left = saturating_add(angle, Vec3{soft(joint.turn.x), soft(joint.turn.y), soft(joint.turn.z)});
-    clamp_vector(left, greatest_left);
-    return left;
+    const std::int64_t softness = joint.constants.angular_softness;
+    return {soften(softness, angle.x, joint.turn.x), soften(softness, angle.y, joint.turn.y),
+            soften(softness, angle.z, joint.turn.z)};
 }
 
 } // namespace
