@@ -90,7 +90,7 @@ TEST_CASE("objects side by side move as each does by itself, on any number of wo
         if (lks_simd_is_available(static_cast<lks_simd>(level)) == 0) {
             continue;
         }
-        for (const std::uint32_t workers : {3u, 1u, 2u, 8u}) {
+        for (const std::uint32_t workers : {1u, 2u, 3u, 8u}) {
             if (support::sanitised && workers != 3) {
                 continue;
             }

@@ -51,12 +51,6 @@ bool keeps_momentum(World& world, lks_object_id object, int ticks, Sum& drift) {
     return kept;
 }
 
-World weightless(std::uint32_t substeps, std::uint32_t iterations = 1) {
-    lks_world_def def = world_def(60, substeps, iterations);
-    def.gravity = {};
-    return World(def);
-}
-
 // Each vertex gets a velocity of its own, up to 2 m/s on each axis, on top of the object's.
 void stir(World& world, lks_object_id object, std::uint32_t count, const lks_vec3& common) {
     Random random(17);
@@ -93,7 +87,7 @@ TEST_CASE("a free cloth of equal masses keeps its momentum to the bit") {
             net.shear = material.shear;
             net.bend = material.bend;
             const Asset asset = net.build();
-            World world = weightless(8, iterations);
+            World world(weightless(8, iterations));
             const lks_object_id object = world.add(asset, turned(at(3.3, -2, 1), 1, 2, 3, 50));
             // Fast enough to make the frame follow by whole metres.
             stir(world, object, asset.vertex_count(), fixed(5, -3, 11));
@@ -117,7 +111,7 @@ TEST_CASE("a free mesh of equal masses keeps its momentum to the bit") {
     def.area_density = 0;
     def.vertex_masses = masses.data();
     const Asset asset(def);
-    World world = weightless(10);
+    World world(weightless(10));
     const lks_object_id object = world.add(asset, at(0, 0, 0));
     stir(world, object, asset.vertex_count(), {});
     Sum drift;
@@ -129,7 +123,7 @@ TEST_CASE("a cloth that was pinned once and is free again keeps its momentum to 
     net.side = 12;
     net.shear = soft(1e-5, 10);
     const Asset asset = net.build();
-    World world = weightless(8, 2);
+    World world(weightless(8, 2));
     const lks_object_id object = world.add(asset, at(0, 0, 0));
     stir(world, object, asset.vertex_count(), fixed(1, 2, 3));
     world.pin(object, 0);
@@ -145,7 +139,7 @@ TEST_CASE("the momentum that is kept is the one that was given") {
     Net net;
     net.side = 12;
     const Asset asset = net.build();
-    World world = weightless(10);
+    World world(weightless(10));
     const lks_object_id object = world.add(asset, at(0, 0, 0));
     stir(world, object, asset.vertex_count(), fixed(1, 2, 3));
     Vector given;
@@ -179,7 +173,7 @@ double error_of_the_centre(std::uint32_t side, const Material& material, double 
         total += masses.back();
     }
     const Asset asset = net.build(masses);
-    World world = weightless(10);
+    World world(weightless(10));
     const lks_object_id object = world.add(asset, at(0, 0, 0));
     stir(world, object, asset.vertex_count(), fixed(0.5, -0.3, 0.2));
 

@@ -107,9 +107,7 @@ TEST_CASE("who lies beside a sleeper falls asleep, too") {
 }
 
 TEST_CASE("a row of balls that sleep hands on what strikes the first one") {
-    lks_world_def weightless = world_def(60, 20);
-    weightless.gravity = {};
-    World world(weightless);
+    World world(weightless(20));
     lks_body_def def = lks_default_body_def();
     def.restitution = LKS_FIXED_ONE;
     std::vector<lks_body_id> row;
@@ -283,9 +281,7 @@ TEST_CASE("a pendulum swings on, however slow it is where it turns") {
 
 TEST_CASE("what drifts goes on, unless it stays within a centimetre for two seconds") {
     for (const double speed : {0.05, 0.01, 0.003}) {
-        lks_world_def weightless = world_def(60, 8);
-        weightless.gravity = {};
-        World world(weightless);
+        World world(weightless(8));
         lks_body_def def = lks_default_body_def();
         def.velocity = fixed(speed, 0, 0);
         const lks_body_id ball = add_body(world, ball_shape(0.1), {}, def);

@@ -27,12 +27,6 @@ double fallen(double period, double time) {
     return g / (rate * rate) * (1 - std::cos(rate * time));
 }
 
-World world_without_weight() {
-    lks_world_def def = world_def(60, 20);
-    def.gravity = {};
-    return World(def);
-}
-
 lks_body_def awake() {
     lks_body_def def = lks_default_body_def();
     def.never_sleeps = 1;
@@ -112,7 +106,7 @@ TEST_CASE("what turns against a soft joint, or beyond a soft limit, turns as its
                           {LKS_JOINT_BALL, true, fixed(0, 0, speed)}};
     for (const double period : periods) {
         for (const Case& c : cases) {
-            World world = world_without_weight();
+            World world(weightless(20));
             const lks_body_id anchor = add_anchor(world, {});
             lks_body_def def = awake();
             def.angular_velocity = c.spin;
@@ -140,7 +134,7 @@ TEST_CASE("what turns against a soft joint, or beyond a soft limit, turns as its
 
 TEST_CASE("a joint that hardly damps slows what turns down by so much") {
     for (const double lasting : {100.0, 1e4}) { // s, until a third of the speed is left
-        World world = world_without_weight();
+        World world(weightless(20));
         const lks_body_id anchor = add_anchor(world, {});
         lks_body_def def = awake();
         def.angular_velocity = fixed(0, 2, 0);

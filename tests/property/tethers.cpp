@@ -20,12 +20,6 @@ Net net_of(std::uint32_t side, const std::vector<std::uint32_t>& anchors) {
     return net;
 }
 
-World weightless() {
-    World world(world_def(60, 10));
-    REQUIRE(lks_world_set_gravity(world, {}) == LKS_OK);
-    return world;
-}
-
 bool same(const std::vector<lks_raw_position>& a, const std::vector<lks_raw_position>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](const auto& l, const auto& r) { return l.x == r.x && l.y == r.y && l.z == r.z; });
@@ -57,7 +51,7 @@ TEST_CASE("a tethered cloth at rest is left alone to the bit") {
             const std::vector<std::uint32_t> pins = net.anchors;
             std::vector<lks_raw_position> found[2];
             for (std::vector<lks_raw_position>& positions : found) {
-                World world = weightless();
+                World world(weightless(10));
                 const Asset asset = net.build();
                 const lks_object_id object = world.add(asset, at(0, 0, 0));
                 for (const std::uint32_t pin : pins) {
@@ -81,7 +75,7 @@ TEST_CASE("a cloth that nothing pins, and one that is slack, move to the bit as 
     const Asset tethered = with.build();
     const Asset plain = without.build();
     const auto run = [&](const Asset& asset, bool pinned, double speed) {
-        World world = weightless();
+        World world(weightless(10));
         const lks_object_id object = world.add(asset, at(0, 0, 0));
         // Every other vertex is raised, and all are nearer to each other: each thread zigzags.
         for (std::uint32_t v = 0; v < 441; ++v) {
@@ -137,7 +131,7 @@ TEST_CASE("pins further apart than the cloth between them is long stretch it eve
     net.stretch = soft(1e-3);
     net.shear = net.bend = off;
     const Asset asset = net.build();
-    World world = weightless();
+    World world(weightless(10));
     lks_object_def def = object_def(asset, at(0, 0, 0));
     def.linear_damping = LKS_FIXED(20);
     const lks_object_id object = world.add(def);

@@ -151,6 +151,12 @@ lks_world_def world_def(std::uint32_t tick_rate_hz, std::uint32_t substeps, std:
     return def;
 }
 
+lks_world_def weightless(std::uint32_t substeps, std::uint32_t iterations) {
+    lks_world_def def = world_def(60, substeps, iterations);
+    def.gravity = {};
+    return def;
+}
+
 lks_object_def object_def(const Asset& asset, const lks_transform& transform) {
     lks_object_def def = lks_default_object_def();
     def.asset = asset;

@@ -93,6 +93,8 @@ private:
 };
 
 lks_world_def world_def(std::uint32_t tick_rate_hz, std::uint32_t substeps, std::uint32_t iterations = 1);
+// The same at 60 Hz, without gravity.
+lks_world_def weightless(std::uint32_t substeps, std::uint32_t iterations = 1);
 lks_object_def object_def(const Asset& asset, const lks_transform& transform);
 
 // Whether LOCKSTITCH_LONG=1 asks for the long sweeps.

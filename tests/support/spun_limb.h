@@ -25,13 +25,6 @@ struct SpunLimb {
         def.kind = spin.kind;
         joint = add_joint(world, def, anchor, limb);
     }
-
-private:
-    static lks_world_def weightless(std::uint32_t substeps) {
-        lks_world_def def = world_def(60, substeps);
-        def.gravity = {};
-        return def;
-    }
 };
 
 } // namespace support
