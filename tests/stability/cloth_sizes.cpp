@@ -72,4 +72,23 @@ TEST_CASE("cloths with edges of ten metres hang") {
     hang({2, 10, 60, 20, 600, 1e-5, 1e-4});
     hang({4, 10, 60, 20, 600, 0.1, 0.1});
     hang({8, 10, 60, 20, 600, 0.3, 0.3});
+    hang({12, 10, 60, 20, 600, 0.4, 0.3});
+}
+
+TEST_CASE("cloths as large as an object hang whatever their number") {
+    hang({64, 1.75, 60, 20, 60, 3, 0.6});
+    hang({512, 0.215, 60, 20, long_runs() ? 120 : 1, long_runs() ? 350 : 0.005, long_runs() ? 14 : 0.005});
+}
+
+TEST_CASE("cloths of 64 x 64 and 512 x 512 with edges of ten metres are larger than an object, and refused") {
+    for (const std::uint32_t side : {64u, 512u}) {
+        Net net;
+        net.side = side;
+        net.width = 10.0 * (side - 1);
+        lks_cloth_def def = net.def();
+        def.mass = 1;
+        lks_asset* asset = nullptr;
+        CHECK(lks_asset_create_cloth(&def, &asset) == LKS_ERROR_INVALID_ARGUMENT);
+        lks_asset_release(asset);
+    }
 }
