@@ -21,7 +21,8 @@ std::string ratio_name(double ratio) {
 }
 
 // A rope of 2 m, held at one end and let go when it is level.
-void swing(const std::string& scene, const std::vector<double>& masses, double stretch, double end_stretch) {
+void swing(const std::string& scene, const std::vector<double>& masses, double stretch, double end_stretch,
+           const Aftermath& aftermath = {}) {
     std::vector<double> points;
     for (std::size_t i = 0; i < masses.size(); ++i) {
         points.insert(points.end(),
@@ -46,7 +47,7 @@ void swing(const std::string& scene, const std::vector<double>& masses, double s
     Trial trial(subject);
     trial.pin(0);
     trial.run(300);
-    expect_stretch_at_most(scene, trial, stretch);
+    expect_stretch_at_most(scene, trial, stretch, aftermath);
     expect_last_stretch_at_most(scene, trial, end_stretch);
     expect_gain_at_most(scene, trial, 0.1);
     expect_nothing_clamped(trial);
@@ -89,7 +90,8 @@ TEST_CASE("ropes with a heavy end hold it, as well as their solver can") {
     for (int i = 0; i < 3; ++i) {
         std::vector<double> masses = alike(21, 0.01);
         masses.back() *= ratios[i];
-        swing("rope of 20, " + ratio_name(ratios[i]) + " at the end", masses, worst[i], at_end[i]);
+        swing("rope of 20, " + ratio_name(ratios[i]) + " at the end", masses, worst[i], at_end[i],
+              i == 0 ? Aftermath{4.5} : Aftermath{});
     }
 }
 

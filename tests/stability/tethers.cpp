@@ -14,7 +14,8 @@ using namespace stability;
 
 namespace {
 
-void hang(std::uint32_t side, std::uint32_t substeps, int ticks, double stretch) {
+void hang(std::uint32_t side, std::uint32_t substeps, int ticks, double stretch,
+          const Aftermath& aftermath = {}) {
     Net net;
     net.side = side;
     net.particle_mass = 1.0 / (static_cast<double>(side) * side);
@@ -24,7 +25,7 @@ void hang(std::uint32_t side, std::uint32_t substeps, int ticks, double stretch)
     trial.run(ticks);
     const std::string scene =
         named("tethered cloth ", side, " × ", side, ", ", substeps, " × 1, ", ticks, " ticks");
-    expect_stretch_at_most(scene, trial, stretch);
+    expect_stretch_at_most(scene, trial, stretch, aftermath);
     expect_gain_at_most(scene, trial, 0.1);
     expect_nothing_clamped(trial);
 }
@@ -32,11 +33,11 @@ void hang(std::uint32_t side, std::uint32_t substeps, int ticks, double stretch)
 } // namespace
 
 TEST_CASE("tethered cloths of 64 x 64 and 256 x 256 never explode") {
-    hang(64, 1, long_runs() ? 300 : 60, 300);
-    hang(64, 5, long_runs() ? 300 : 60, 100);
+    hang(64, 1, long_runs() ? 300 : 60, 300, {0, 82});
+    hang(64, 5, long_runs() ? 300 : 60, 100, {0, 35});
     hang(64, 20, long_runs() ? 300 : 40, 12);
-    hang(256, 5, long_runs() ? 300 : 8, 300);
-    hang(256, 20, long_runs() ? 300 : 2, 50);
+    hang(256, 5, long_runs() ? 300 : 8, 300, {0, long_runs() ? 80. : 6});
+    hang(256, 20, long_runs() ? 300 : 2, 50, {0, long_runs() ? 23. : 0});
 }
 
 TEST_CASE("tethered cloths whose pins are torn apart by 100 m in a tick recover") {
@@ -62,7 +63,7 @@ TEST_CASE("tethered cloths whose pins are torn apart by 100 m in a tick recover"
         trial.begin();
         trial.run(60);
         const std::string scene = named("tethered cloth 12 × 12, ", substeps, " × 1");
-        expect_stretch_at_most(scene + ", torn apart", trial, substeps == 1 ? 1e5 : 6e4);
+        expect_worst_stretch_at_most(scene + ", torn apart", trial, substeps == 1 ? 1e5 : 6e4);
         expect_kinetic_energy_at_most(scene + ", torn apart", trial, 1e6);
         for (const std::uint32_t pin : net.anchors) {
             trial.set_target(pin, start[pin]);
@@ -91,6 +92,6 @@ TEST_CASE("a tethered cloth of vertices from 10 ug to 1 kg side by side") {
     trial.pin(0);
     trial.pin(15);
     trial.run(300);
-    expect_stretch_at_most("tethered cloth, vertices of 10 µg … 1 kg", trial, 3000);
+    expect_stretch_at_most("tethered cloth, vertices of 10 µg … 1 kg", trial, 3000, {0, 75});
     expect_gain_at_most("tethered cloth, vertices of 10 µg … 1 kg", trial, 1);
 }

@@ -251,9 +251,22 @@ double farthest(const std::vector<Vector>& a, const std::vector<Vector>& b) {
     return distance;
 }
 
-void expect_stretch_at_most(const std::string& scene, const Trial& trial, double percent) {
+void expect_worst_stretch_at_most(const std::string& scene, const Trial& trial, double percent) {
     expect_at_most(scene, "stretch, worst", "%", percent, 100 * trial.fixed().worst().stretch,
                    100 * trial.single().worst().stretch);
+}
+
+void expect_stretch_at_most(const std::string& scene, const Trial& trial, double percent,
+                            const Aftermath& aftermath) {
+    expect_worst_stretch_at_most(scene, trial, percent);
+    if (aftermath.seconds > 0) {
+        expect_recovery_within(scene, trial, aftermath.seconds);
+    } else if (aftermath.off > 0) {
+        expect_last_off_at_most(scene, trial, aftermath.off);
+    } else {
+        INFO(scene << ": recovered after, s");
+        CHECK(trial.fixed().recovery() == 0);
+    }
 }
 
 void expect_last_stretch_at_most(const std::string& scene, const Trial& trial, double percent) {
