@@ -86,7 +86,7 @@ LKS_API lks_result lks_world_remove_joint(lks_world* world, lks_joint_id joint);
 LKS_API uint32_t lks_world_has_joint(const lks_world* world, lks_joint_id joint);
 LKS_API uint32_t lks_world_joint_count(const lks_world* world);
 
-/* How far the two points are from where the joint allows them, metres. */
+/* How far the two points are from where the joint allows them, metres. Saturates at 8,388,608. */
 LKS_API lks_result lks_joint_error(const lks_world* world, lks_joint_id joint, lks_fixed* error);
 /* Degrees: how far the axes are apart, 0 .. 180, and how far b is twisted against a, -180 .. 180. Either may
  * be null. */

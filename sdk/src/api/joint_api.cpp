@@ -5,6 +5,7 @@
 
 #include "api/joint_checks.h"
 #include "api/read_out.h"
+#include "collide/saturation.h"
 #include "fixed/arc_tangent.h"
 #include "rigid/make_body.h"
 #include "rigid/sleep.h"
@@ -159,7 +160,7 @@ lks_result lks_joint_error(const lks_world* world, lks_joint_id joint, lks_fixed
     }
     const Joint& found = world->rigid.joints[joint.index];
     const JointBodies bodies = bodies_of(*world, found);
-    const auto distance = static_cast<std::int64_t>(fixed::length(joint_offset(found, bodies.a, bodies.b)));
+    const std::int64_t distance = saturate(fixed::length(joint_offset(found, bodies.a, bodies.b)));
     const JointDescription& d = found.description;
     *error = d.kind == LKS_JOINT_DISTANCE
                  ? std::max<std::int64_t>({distance - d.distance_max, d.distance_min - distance, 0})

@@ -20,6 +20,7 @@ class WideTree : VectorLanes<L> {
     using typename V::Halves;
     using typename V::Vector;
     using V::add, V::subtract, V::negate, V::clamp, V::halves, V::dot_30, V::multiply_narrow;
+    using V::saturating_add, V::saturating_subtract;
 
 public:
     WideTree(const TreeTask& task, std::uint32_t first) : task_(task), first_(first) {}
@@ -239,17 +240,19 @@ private:
         }
     }
 
-    LKS_FORCE_INLINE Vector point_of(const WideTreeBody& body, const TreeLanes (&point)[3]) const {
-        return add(load(body.position), rotate(body.rotation, load(point)));
+    // joint_offset.
+    LKS_FORCE_INLINE Vector offset(const WideTreeBody& a, const TreeLanes (&point_a)[3],
+                                   const WideTreeBody& b, const TreeLanes (&point_b)[3]) const {
+        return saturating_add(saturating_subtract(load(b.position), load(a.position)),
+                              subtract(rotate(b.rotation, load(point_b)), rotate(a.rotation, load(point_a))));
     }
     LKS_FORCE_INLINE Vector point_motion(const WideTreeBody& body, const Vector& lever) const {
         return add(load(body.shift), cross_32(load(body.turn), lever));
     }
 
     LKS_FORCE_INLINE void fold_error(WideTreeJoint& joint, WideTreeBody& parent, WideTreeBody& child) const {
-        const Vector of_child = point_of(child, joint.child_point);
-        const Vector of_parent = point_of(parent, joint.parent_point);
-        Vector apart = joint.child_is_a ? subtract(of_parent, of_child) : subtract(of_child, of_parent);
+        Vector apart = joint.child_is_a ? offset(child, joint.child_point, parent, joint.parent_point)
+                                        : offset(parent, joint.parent_point, child, joint.child_point);
         if (task_.keeps_start) {
             apart = subtract(apart, load(joint.start));
         }

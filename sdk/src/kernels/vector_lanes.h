@@ -1,6 +1,8 @@
 // Vectors of 64-bit numbers over lanes, and what fixed/vector.h does with them. Sums wrap.
 #pragma once
 
+#include <cstdint>
+
 #include "kernels/force_inline.h"
 
 namespace lks {
@@ -84,6 +86,27 @@ struct VectorLanes {
     LKS_FORCE_INLINE static Vector select_by_sign(const Vector& a, const Vector& b, R sign) {
         return {L::select_by_sign(a.x, b.x, sign), L::select_by_sign(a.y, b.y, sign),
                 L::select_by_sign(a.z, b.z, sign)};
+    }
+    // collide/saturation.h's.
+    LKS_FORCE_INLINE static R saturating_add(R a, R b) {
+        const R sum = L::add(a, b);
+        const R beyond = L::bit_and(L::exclusive_or(a, sum), L::exclusive_or(b, sum));
+        return L::select_by_sign(sum, end_towards(a), beyond);
+    }
+    LKS_FORCE_INLINE static R saturating_subtract(R a, R b) {
+        const R difference = L::subtract(a, b);
+        const R beyond = L::bit_and(L::exclusive_or(a, b), L::exclusive_or(a, difference));
+        return L::select_by_sign(difference, end_towards(a), beyond);
+    }
+    LKS_FORCE_INLINE static Vector saturating_add(const Vector& a, const Vector& b) {
+        return {saturating_add(a.x, b.x), saturating_add(a.y, b.y), saturating_add(a.z, b.z)};
+    }
+    LKS_FORCE_INLINE static Vector saturating_subtract(const Vector& a, const Vector& b) {
+        return {saturating_subtract(a.x, b.x), saturating_subtract(a.y, b.y), saturating_subtract(a.z, b.z)};
+    }
+    // The end of the range on the side of v.
+    LKS_FORCE_INLINE static R end_towards(R v) {
+        return L::select_by_sign(L::set(INT64_MAX), L::set(INT64_MIN), v);
     }
     // The low 64 bits of v·q.
     LKS_FORCE_INLINE static R multiply_narrow(R v, R q) {

@@ -86,8 +86,10 @@ void project_distance(Joint& joint, Body& a, Body& b) {
 } // namespace
 
 Vec3 joint_offset(const Joint& joint, const Body& a, const Body& b) {
-    return (b.position - a.position) + fixed::rotate(b.rotation, joint.description.point_b) -
-           fixed::rotate(a.rotation, joint.description.point_a);
+    // Points are near their bodies, but bodies may be as far apart as the world is wide.
+    return saturating_add(saturating_subtract(b.position, a.position),
+                          fixed::rotate(b.rotation, joint.description.point_b) -
+                              fixed::rotate(a.rotation, joint.description.point_a));
 }
 
 void forget_pushes(Joint& joint) {
