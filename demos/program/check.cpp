@@ -20,6 +20,8 @@ bool read_file(const std::filesystem::path& path, std::string& text) {
     return static_cast<bool>(file);
 }
 
+enum class StateOutcome { as_expected, different, missing };
+
 class Check {
 public:
     Check(const GoldenOptions& options, const lks_demo::SceneOptions& scene_options,
@@ -41,9 +43,9 @@ public:
             fail(name, error);
             return;
         }
-        const bool state_good = check_state(name, actual);
+        const StateOutcome state = check_state(name, actual);
         for (const PictureResult& result : pictures) {
-            report_picture(result, state_good);
+            report_picture(result, state);
         }
         all_pictures_.insert(all_pictures_.end(), pictures.begin(), pictures.end());
     }
@@ -67,18 +69,20 @@ private:
     }
 
     // The state is compared also where only images are asked for: it tells what a changed picture means.
-    bool check_state(const std::string& name, const lks_golden::GoldenState& actual) {
+    StateOutcome check_state(const std::string& name, const lks_golden::GoldenState& actual) {
         const std::filesystem::path path = std::filesystem::path(golden_) / "states" / (name + ".txt");
         std::string text;
-        std::vector<std::string> found;
-        if (read_file(path, text)) {
-            found = lks_golden::differences(text, actual);
-        } else {
-            found.push_back("there is no golden state " + path.string() + "; `lockstitch bless " + name +
-                            "` makes it.");
+        if (!read_file(path, text)) {
+            if (!options_.images_only) {
+                fail(name, "there is no golden state " + path.string() + "; `lockstitch bless " + name +
+                               (options_.golden.empty() ? "" : " --golden " + golden_) + "` makes it");
+            }
+            return StateOutcome::missing;
         }
+        const std::vector<std::string> found = lks_golden::differences(text, actual);
+        const StateOutcome outcome = found.empty() ? StateOutcome::as_expected : StateOutcome::different;
         if (options_.images_only) {
-            return found.empty();
+            return outcome;
         }
         for (const std::string& sentence : found) {
             std::printf("     %s\n", sentence.c_str());
@@ -89,10 +93,10 @@ private:
         } else {
             fail(name, "the simulation's state differs from its golden state");
         }
-        return found.empty();
+        return outcome;
     }
 
-    void report_picture(const PictureResult& result, bool state_good) {
+    void report_picture(const PictureResult& result, StateOutcome state) {
         const std::string tick = "image at tick " + std::to_string(result.tick);
         if (result.outcome == PictureOutcome::as_expected) {
             ++good_images_;
@@ -103,10 +107,20 @@ private:
             fail(result.scene, tick + ": " + result.sentence);
             return;
         }
-        fail(result.scene,
-             tick + ": " + result.sentence + ". " +
-                 (state_good ? "The rendering changed, the simulation did not: the state is golden."
-                             : "The state differs too: the simulation changed."));
+        fail(result.scene, tick + ": " + result.sentence + ". " + meaning_of(state));
+    }
+
+    // Of a picture that differs.
+    static const char* meaning_of(StateOutcome state) {
+        switch (state) {
+        case StateOutcome::as_expected:
+            return "The rendering changed, the simulation did not: the state is golden.";
+        case StateOutcome::different:
+            return "The state differs too: the simulation changed.";
+        case StateOutcome::missing:
+            break;
+        }
+        return "There is no golden state to tell whether the simulation changed.";
     }
 
     const GoldenOptions& options_;
@@ -128,6 +142,9 @@ int check(const GoldenOptions& options) {
         return exit_usage;
     }
     const std::string golden = find_golden(options);
+    if (!std::filesystem::is_directory(golden)) {
+        return complain("There is no folder '" + golden + "' with golden states and images.", exit_usage);
+    }
     std::unique_ptr<GoldenPictures> pictures;
     std::string error;
     if (!options.states_only) {
