@@ -47,12 +47,14 @@ std::vector<ChainRun> run_chain(const std::vector<reference::Engine>& engines, d
 
 // A beam of St. Venant-Kirchhoff triangles held at one end, E = 1e5, ν = 0.3, 50 frames of 8 ms.
 struct BeamRun {
+    std::string solver;
     int iterations = 0;        // 0: Newton
     std::vector<double> tip{}; // height of the free end's middle, metres, by frame
     double worst_distance = 0; // of the tip from Newton's, metres
+    double rounding = 0;       // of float32, the tip's from the same in double precision, metres
 };
 struct Beam {
-    std::vector<BeamRun> runs;               // Newton first
+    std::vector<BeamRun> runs; // Newton first, then XPBD at each number of iterations, then its float32 build
     std::vector<double> residual{};          // |h| of eq. 9 in one frame, by iteration, XPBD
     std::vector<double> momentum_residual{}; // |g| of eq. 8
     std::vector<double> newton_residual{};

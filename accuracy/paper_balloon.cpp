@@ -100,19 +100,21 @@ reference::Model balloon(double shell_compliance, double volume_compliance) {
 }
 
 template <typename Solver>
-BalloonRun run(const char* name, const reference::Model& model, Solver solver, int iterations) {
+BalloonRun run(reference::Engine engine, const reference::Model& model, Solver solver, int iterations) {
     solver.tick(frames);
     if constexpr (std::is_same_v<Solver, reference::ImplicitEuler>) {
         must_have_converged(solver);
     }
-    reference::Block<double> block;
-    evaluate(model.volumes.front(), solver.positions(), block);
     std::vector<support::Vector> positions;
+    std::vector<reference::Vector3<double>> widened;
     for (const auto& p : solver.positions()) {
         positions.push_back(p.widened());
+        widened.emplace_back(positions.back());
     }
+    reference::Block<double> block;
+    evaluate(model.volumes.front(), widened, block);
     const double rest = model.volumes.front().rest;
-    return {name,
+    return {name_of(engine),
             model.edges.front().compliance,
             model.volumes.front().compliance,
             iterations,
@@ -130,16 +132,19 @@ std::vector<BalloonRun> run_balloon(const std::vector<double>& shell_compliances
         for (const double volume : volume_compliances) {
             const reference::Model model = balloon(shell, volume);
             reference::Settings settings{60, 1, 1, {}, 10};
-            runs.push_back(run("Newton", model,
+            runs.push_back(run(reference::Engine::newton, model,
                                reference::ImplicitEuler(model, settings, reference::Linearisation::full), 0));
             for (const int count : iterations) {
                 settings.iterations = count;
-                runs.push_back(run("XPBD", model,
-                                   reference::PositionBased<double>(model, settings, reference::Method::xpbd),
-                                   count));
-                runs.push_back(run(
-                    "PBD", model,
-                    reference::PositionBased<double>(model, settings, reference::Method::pbd, 0.1), count));
+                const auto sweep = [&]<typename Scalar>(reference::Engine engine, Scalar,
+                                                        reference::Method method, double stiffness) {
+                    runs.push_back(run(engine, model,
+                                       reference::PositionBased<Scalar>(model, settings, method, stiffness),
+                                       count));
+                };
+                sweep(reference::Engine::xpbd, double(), reference::Method::xpbd, 1);
+                sweep(reference::Engine::xpbd_single, float(), reference::Method::xpbd, 1);
+                sweep(reference::Engine::pbd, double(), reference::Method::pbd, 0.1);
             }
         }
     }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "paper.h"
 #include "reference/implicit.h"
@@ -51,6 +52,27 @@ double tip_of(const Positions& positions) {
     return positions[(columns - 1) * rows + rows / 2].y;
 }
 
+double farthest(const std::vector<double>& a, const std::vector<double>& b) {
+    double most = 0;
+    for (std::size_t frame = 0; frame < a.size(); ++frame) {
+        most = std::max(most, std::abs(a[frame] - b[frame]));
+    }
+    return most;
+}
+
+template <typename Scalar>
+BeamRun sweep(reference::Engine engine, const reference::Model& model, const reference::Settings& settings,
+              const BeamRun& exact) {
+    reference::PositionBased<Scalar> solver(model, settings, reference::Method::xpbd);
+    BeamRun run{name_of(engine), settings.iterations};
+    for (int frame = 0; frame < frames; ++frame) {
+        solver.tick();
+        run.tip.push_back(tip_of(solver.positions()));
+    }
+    run.worst_distance = farthest(run.tip, exact.tip);
+    return run;
+}
+
 } // namespace
 
 Beam run_beam(const std::vector<int>& iterations) {
@@ -60,7 +82,7 @@ Beam run_beam(const std::vector<int>& iterations) {
     settings.substeps = 1;
     Beam beam;
     reference::ImplicitEuler newton(model, settings, reference::Linearisation::full);
-    BeamRun exact;
+    BeamRun exact{name_of(reference::Engine::newton)};
     for (int frame = 0; frame < frames; ++frame) {
         newton.tick();
         must_have_converged(newton);
@@ -72,14 +94,12 @@ Beam run_beam(const std::vector<int>& iterations) {
     beam.runs.push_back(exact);
     for (const int count : iterations) {
         settings.iterations = count;
-        reference::PositionBased<double> solver(model, settings, reference::Method::xpbd);
-        BeamRun run{count};
-        for (int frame = 0; frame < frames; ++frame) {
-            solver.tick();
-            run.tip.push_back(tip_of(solver.positions()));
-            run.worst_distance =
-                std::max(run.worst_distance, std::abs(run.tip.back() - exact.tip[run.tip.size() - 1]));
-        }
+        beam.runs.push_back(sweep<double>(reference::Engine::xpbd, model, settings, exact));
+    }
+    for (std::size_t i = 0; i < iterations.size(); ++i) {
+        settings.iterations = iterations[i];
+        BeamRun run = sweep<float>(reference::Engine::xpbd_single, model, settings, exact);
+        run.rounding = farthest(run.tip, beam.runs[i + 1].tip);
         beam.runs.push_back(std::move(run));
     }
 
