@@ -8,12 +8,12 @@ usage() {
 usage: ./test.sh [--portability] [--long] [-- CTEST-OPTIONS...]
 
 Installs what is missing, builds into build/ and runs all tests: the SDK's own, the golden states and images,
-the states again from clang and from g++ without SIMD or floating-point registers, programs outside the tree
-that link the installed library, and the checks of the sources. Some twelve minutes on two cores.
+the states again from clang, programs outside the tree that link the installed library, and the checks of the
+sources. Two cores take ten minutes, or twice as long if they are slow.
 
-  --portability  also g++ with -O0 and with -ffast-math, address, undefined-behaviour and thread
-                 sanitizers, and the golden states on aarch64, 32-bit arm, s390x, Windows and WebAssembly,
-                 under qemu-user, wine and node: some fifty minutes
+  --portability  also g++ without SIMD or floating-point registers, with -O0 and with -ffast-math, address,
+                 undefined-behaviour and thread sanitizers, and the golden states on aarch64, 32-bit arm,
+                 s390x, Windows and WebAssembly, under qemu-user, wine and node: 45 to 80 minutes
   --long         also the exhaustive sweeps, and with --portability g++ and clang at every -O, clang with
                  -ffast-math, g++ without SIMD, and WebAssembly without SIMD
   --help         this text

@@ -112,7 +112,7 @@ TEST_CASE("fixed: quaternions of any length are normalised to half a unit") {
         }
     }
     Random random(41);
-    for (std::uint64_t i = 0; i < lks::test::sample_count(); ++i) {
+    for (std::uint64_t i = 0; i < lks::test::slow_sample_count(); ++i) {
         check({any_component(random), any_component(random), any_component(random), any_component(random)});
     }
     LKS_CHECK_TALLY(tally);
@@ -150,7 +150,7 @@ TEST_CASE("fixed: wide normalisation is within two units of 2^-62, also at the l
             }
         }
     }
-    for (std::uint64_t i = 0; i < lks::test::sample_count(); ++i) {
+    for (std::uint64_t i = 0; i < lks::test::slow_sample_count(); ++i) {
         check({random.any_signed(), random.any_signed(), random.any_signed(), random.any_signed()});
     }
     LKS_CHECK_TALLY(tally);
@@ -331,7 +331,7 @@ TEST_CASE("fixed: quaternion products are rounded once, and mean one rotation af
 TEST_CASE("fixed: interpolation is the normalised line on the shorter way, within half a unit") {
     Tally tally;
     Random random(47);
-    for_rotations(50, lks::test::sample_count(), [&](Rotation a) {
+    for_rotations(50, lks::test::slow_sample_count(), [&](Rotation a) {
         const Rotation b = any_rotation(random);
         const std::uint32_t denominator = static_cast<std::uint32_t>(random.any_magnitude(32));
         if (denominator < 2)

@@ -189,7 +189,7 @@ TEST_CASE("fixed: rotations about axes of any length are within 0.51 units") {
     Tally tally, angle_tally;
     Random random(63);
     const auto square = [](const Wide& a) { return a * a; };
-    walk(2 * lks::test::sample_count(), [&](std::int64_t half_degrees, const Point& exact) {
+    walk(2 * lks::test::slow_sample_count(), [&](std::int64_t half_degrees, const Point& exact) {
         if (half_degrees > (std::int64_t{18000} << 40) || half_degrees < -(std::int64_t{18000} << 40))
             return;
         const Vec3 axis{random.any_signed(), random.any_signed(), random.any_signed()};
