@@ -5,14 +5,16 @@
 namespace lks {
 namespace {
 
-// Loops before others are let run: some microseconds.
+// Loops before others are let run, some microseconds; and after they were, until they are again: where there
+// are more threads than processors it is one of those that has the work.
 constexpr std::uint32_t patience = 4000;
+constexpr std::uint32_t later_patience = 100;
 
 class Patience {
 public:
     void wait() {
         if (++loops_ >= patience) {
-            loops_ = 0;
+            loops_ = patience - later_patience;
             give_way();
         }
     }
