@@ -59,7 +59,7 @@ TEST_CASE("cloths with edges of a centimetre hang whatever their number") {
     hang({8, 0.01, 60, 20, 60, 6, 6});
     hang({64, 0.01, 60, 20, 60, 300, 30, {0, 3}, {1}});
     if (long_runs()) {
-        hang({512, 0.01, 60, 20, 120, 1e4, 1e4, {0, 70}, {0, 60}});
+        hang({512, 0.01, 60, 20, 120, 1e4, 1e4, {0, 70}, {0, 10}});
     } else {
         hang({512, 0.01, 60, 20, 1, 2, 2});
     }
@@ -74,7 +74,7 @@ TEST_CASE("cloths with edges of a micrometre hang") {
     hang({8, 1e-6, 1000, 100, 20, 8, 8});
     hang({64, 1e-6, 1000, 100, 5, 500, 40, {0, 22}, {0, 6}});
     if (long_runs()) {
-        hang({512, 1e-6, 1000, 100, 20, 2e4, 2e4, {0, 70}, {0, 60}});
+        hang({512, 1e-6, 1000, 100, 20, 2e4, 2e4, {0, 70}, {0, 20}});
     }
 }
 
