@@ -122,6 +122,15 @@ BalloonRun run(reference::Engine engine, const reference::Model& model, Solver s
             stretch_of(model, positions).mean};
 }
 
+template <typename Scalar>
+BalloonRun sweep(reference::Engine engine, const reference::Model& model,
+                 const reference::Settings& settings) {
+    constexpr double pbd_stiffness = 0.1;
+    const auto method = engine == reference::Engine::pbd ? reference::Method::pbd : reference::Method::xpbd;
+    return run(engine, model, reference::PositionBased<Scalar>(model, settings, method, pbd_stiffness),
+               settings.iterations);
+}
+
 } // namespace
 
 std::vector<BalloonRun> run_balloon(const std::vector<double>& shell_compliances,
@@ -136,15 +145,9 @@ std::vector<BalloonRun> run_balloon(const std::vector<double>& shell_compliances
                                reference::ImplicitEuler(model, settings, reference::Linearisation::full), 0));
             for (const int count : iterations) {
                 settings.iterations = count;
-                const auto sweep = [&]<typename Scalar>(reference::Engine engine, Scalar,
-                                                        reference::Method method, double stiffness) {
-                    runs.push_back(run(engine, model,
-                                       reference::PositionBased<Scalar>(model, settings, method, stiffness),
-                                       count));
-                };
-                sweep(reference::Engine::xpbd, double(), reference::Method::xpbd, 1);
-                sweep(reference::Engine::xpbd_single, float(), reference::Method::xpbd, 1);
-                sweep(reference::Engine::pbd, double(), reference::Method::pbd, 0.1);
+                runs.push_back(sweep<double>(reference::Engine::xpbd, model, settings));
+                runs.push_back(sweep<float>(reference::Engine::xpbd_single, model, settings));
+                runs.push_back(sweep<double>(reference::Engine::pbd, model, settings));
             }
         }
     }

@@ -37,11 +37,8 @@ void hang(const Size& size, bool tethered) {
     const std::string name =
         named(tethered ? "tethered cloth " : "cloth ", size.side, " × ", size.side, ", edges of ", size.edge,
               " m, ", size.hz, " Hz × ", size.substeps, ", ", size.ticks, " ticks");
-    if (tethered) {
-        expect_stretch_at_most(name, trial, size.tethered_stretch, size.tethered);
-    } else {
-        expect_stretch_at_most(name, trial, size.stretch, size.aftermath);
-    }
+    expect_stretch_at_most(name, trial, tethered ? size.tethered_stretch : size.stretch,
+                           tethered ? size.tethered : size.aftermath);
     expect_gain_at_most(name, trial, 1);
     expect_nothing_clamped(trial);
 }
