@@ -9,7 +9,7 @@ usage: ./test.sh [--portability] [--long] [-- CTEST-OPTIONS...]
 
 Installs what is missing, builds into build/ and runs all tests: the SDK's own, the golden states and images,
 the states again from clang, programs outside the tree that link the installed library, and the checks of the
-sources. Two cores take ten minutes, or twice as long if they are slow.
+sources. Two cores take ten to 25 minutes.
 
   --portability  also g++ without SIMD or floating-point registers, with -O0 and with -ffast-math, address,
                  undefined-behaviour and thread sanitizers, and the golden states on aarch64, 32-bit arm,
