@@ -15,11 +15,11 @@ packages_of() {
         # Bullet as a peer, gnuplot for the report's plots.
         bench) echo libbenchmark-dev libbullet-dev gnuplot-nox valgrind ;;
         # Eigen for the reference solvers.
-        test) echo doctest-dev libeigen3-dev clang clang-format clang-tidy python3 binutils ;;
+        test) echo doctest-dev libeigen3-dev clang-format clang-tidy python3 binutils ;;
         # mingw's -posix compiler: the other one has no std::thread.
         portability)
             echo g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-s390x-linux-gnu g++-mingw-w64-x86-64-posix
-            echo qemu-user-static wine wine64 emscripten
+            echo clang qemu-user-static wine wine64 emscripten
             ;;
         *)
             echo "The package set '$1' does not exist; there are build, render, bench, test," \

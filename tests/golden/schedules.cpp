@@ -1,9 +1,14 @@
 // The golden scenes on one to eight threads, with helpers that begin after naps of random length and kernels
 // that sleep now and then: what a tick is made of goes to whoever comes first, and the states are the golden
-// ones all the same.
+// ones all the same. LOCKSTITCH_EVERY_SCHEDULE=1 (`./test.sh --portability`, as CI runs it) takes each scene
+// on each number of threads; otherwise each scene is taken on two of them, and each number by a quarter of
+// the scenes.
 #include <doctest/doctest.h>
 
+#include <cstddef>
+#include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -35,13 +40,24 @@ lks_golden::GoldenState run(const std::string& name, const lks_demo::SceneOption
     return state;
 }
 
+bool every_schedule() {
+    const char* value = std::getenv("LOCKSTITCH_EVERY_SCHEDULE");
+    return value != nullptr && std::string(value) == "1";
+}
+
 } // namespace
 
 TEST_CASE(
     "golden states come out of one to eight threads, however late they are and whoever takes which block") {
+    const bool every = every_schedule();
+    const std::vector<std::string>& names = lks_demo::scene_names();
     std::uint64_t tasks = 0;
     for (std::uint32_t workers = 1; workers <= 8; ++workers) {
-        for (const std::string& name : lks_demo::scene_names()) {
+        for (std::size_t index = 0; index < names.size(); ++index) {
+            if (!every && (workers + index) % 4 != 0) {
+                continue;
+            }
+            const std::string& name = names[index];
             TaskSystem system(Temper::threads, 100 + workers);
             lks_demo::SceneOptions options;
             options.worker_count = workers;
