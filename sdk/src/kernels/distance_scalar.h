@@ -99,8 +99,11 @@ constexpr std::int64_t damped_rounding(std::uint32_t damping_share) {
 LKS_FORCE_INLINE std::int64_t relative_growth(const NarrowDifference& d, const Difference& start,
                                               std::uint64_t u, std::uint32_t y, int k) {
     const auto squared = static_cast<std::int64_t>(u);
-    const std::int64_t dot =
-        std::clamp(squared - d.x * start.x - d.y * start.y - d.z * start.z, -squared, squared);
+    std::int64_t along = d.x * start.x + d.y * start.y + d.z * start.z;
+    if (static_cast<std::uint64_t>(along) > 2 * u) [[unlikely]] {
+        along = along < 0 ? 0 : 2 * squared;
+    }
+    const std::int64_t dot = squared - along;
     // u is m·2^(62 − 2k) with m in [1, 4), and y² is 1/m. Below 2^62.
     const std::int64_t aligned = shift_right_rounded(dot * (std::int64_t{1} << (2 * k - 2)), 32);
     const auto reciprocal = static_cast<std::int64_t>(std::uint64_t{y} * y >> 32);
@@ -121,7 +124,10 @@ public:
         : rest_mantissas_(task.rest_mantissas), shares_(task.shares), parts_b_(task.parts_b),
           relaxations_(task.relaxations), parameters_(task.parameters),
           difference_rounding_(std::int64_t{1} << (task.parameters.difference_shift - 1)),
-          gain_rounding_(std::int64_t{1} << (task.parameters.gain_shift - 1)), arrays_(task.arrays) {}
+          gain_rounding_(std::int64_t{1} << (task.parameters.gain_shift - 1)),
+          product_rounding_(
+              task.parameters.product_shift > 0 ? std::int64_t{1} << (task.parameters.product_shift - 1) : 0),
+          damped_rounding_(damped_rounding(task.parameters.damping_share)), arrays_(task.arrays) {}
 
     LKS_FORCE_INLINE void operator()(std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b) const {
         const Difference near = narrow_near(difference(a, b));
@@ -183,8 +189,7 @@ private:
         if constexpr (damped) {
             const std::int64_t motion = relative_growth(d, start_difference(a, b, d.extra), u, y, k);
             f = (static_cast<std::int64_t>(parameters_.error_share) * g -
-                 static_cast<std::int64_t>(parameters_.damping_share) * motion +
-                 damped_rounding(parameters_.damping_share)) >>
+                 static_cast<std::int64_t>(parameters_.damping_share) * motion + damped_rounding_) >>
                 unit_fraction_bits;
         }
         if constexpr (multiplier) {
@@ -204,9 +209,12 @@ private:
     LKS_FORCE_INLINE Difference start_difference(std::ptrdiff_t a, std::ptrdiff_t b, int extra) const {
         const Difference wide = lks::difference(arrays_.start_x, arrays_.start_y, arrays_.start_z, a, b);
         const Difference near = narrow_near(wide);
-        if (extra == 0 && fit_differences(near)) {
-            return near;
-        }
+        return extra == 0 && fit_differences(near) ? near : far_start_difference(a, b, extra);
+    }
+
+    // By itself, as project_far.
+    LKS_NEVER_INLINE Difference far_start_difference(std::ptrdiff_t a, std::ptrdiff_t b, int extra) const {
+        const Difference wide = lks::difference(arrays_.start_x, arrays_.start_y, arrays_.start_z, a, b);
         const auto narrow = [&](std::int64_t difference) {
             return std::clamp<std::int64_t>(
                 shift_right_rounded_any(difference, parameters_.difference_shift + extra), -direction_one,
@@ -242,9 +250,11 @@ private:
     template <bool far>
     LKS_FORCE_INLINE std::int64_t movement(std::int64_t difference, std::int64_t gain, int extra) const {
         const std::int64_t product = difference * gain;
-        if constexpr (soft || far) {
+        if constexpr (far) {
             const int left = extra - parameters_.product_shift;
             return left == 0 ? product : shift_either_way(product, left);
+        } else if constexpr (soft) {
+            return wrapping_add(product, product_rounding_) >> parameters_.product_shift;
         } else {
             return product;
         }
@@ -275,6 +285,8 @@ private:
     DistanceParameters parameters_;
     std::int64_t difference_rounding_;
     std::int64_t gain_rounding_;
+    std::int64_t product_rounding_;
+    std::int64_t damped_rounding_;
     DistanceArrays arrays_;
 };
 
