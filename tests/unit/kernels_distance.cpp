@@ -165,7 +165,9 @@ Problem make_problem(test::Random& random, const Batch& batch, const Kind& kind)
         if (random.bits() % 16 == 0 && may_differ) {
             problem.parts_b.back() = random.below(2) == 0 ? 0 : direction_one;
         }
-        problem.shares.push_back(problem.parts_b.back() == half_part ? share / 2 : share);
+        problem.shares.push_back(problem.parts_b.back() != half_part ? share
+                                 : kind.soft                         ? share / 2
+                                                                     : unit_one / 2);
         problem.relaxations.push_back(static_cast<std::uint32_t>(random.bits() >> 33));
         problem.multipliers.push_back(
             random.below(4) == 0 ? 0 : signed_below(random, calm ? rest_bits + shift : 58));

@@ -132,7 +132,9 @@ Edge any_edge(test::Random& random) {
     edge.part_b = random.below(2) == 0   ? half_part
                   : random.below(3) == 0 ? static_cast<std::uint32_t>(one_of(random, part_edges))
                                          : static_cast<std::uint32_t>(random.below(direction_one + 1));
-    edge.share = edge.part_b == half_part ? (any_unit(random) + 1) / 2 : any_unit(random);
+    edge.share = edge.part_b != half_part ? any_unit(random)
+                 : edge.soft              ? (any_unit(random) + 1) / 2
+                                          : unit_one / 2;
     edge.relaxation = any_unit(random);
     return edge;
 }

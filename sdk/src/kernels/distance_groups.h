@@ -53,7 +53,7 @@ public:
 
     explicit DistanceGroups(const DistanceTask& task)
         : task_(task), narrow_(task.parameters.difference_shift),
-          rounded_gain_shift_(task.parameters.gain_shift),
+          rounded_gain_shift_(task.parameters.gain_shift), half_gain_(task.parameters.gain_shift),
           product_shift_(
               task.parameters.product_shift,
               task.parameters.product_shift > 0 ? std::int64_t{1} << (task.parameters.product_shift - 1) : 0),
@@ -450,14 +450,18 @@ private:
                            L::shift_right_each(lift, right));
     }
 
-    // `by_parts`: as both_movements wants it.
+    // `by_parts`: as both_movements wants it. What is stiff and moves alike has a share of a half.
     template <bool by_parts, typename Access>
     LKS_FORCE_INLINE N find_gain(const Access& at, const N& f) const {
-        const N once = rounded_gain_shift_.factors(F::multiply_signed(at.load(task_.shares), f));
-        if constexpr (by_parts && !soft) {
-            return F::sum(once, F::where(moves_alike(at.load(task_.parts_b)), once));
+        if constexpr (!by_parts && !soft) {
+            return half_gain_(f);
         } else {
-            return once;
+            const N once = rounded_gain_shift_.factors(F::multiply_signed(at.load(task_.shares), f));
+            if constexpr (by_parts && !soft) {
+                return F::sum(once, F::where(moves_alike(at.load(task_.parts_b)), once));
+            } else {
+                return once;
+            }
         }
     }
     LKS_FORCE_INLINE static N moves_alike(const N& part_b) {
@@ -545,6 +549,7 @@ private:
     DistanceTask task_; // a copy, so that what is stored can't be thought to change it
     Narrowing<L> narrow_;
     GainShift<L> rounded_gain_shift_;
+    HalfGain<L> half_gain_;
     SignedShift<L> product_shift_;
     Octave<L> octave_;
     R ratio_shift_;

@@ -236,14 +236,22 @@ private:
     template <bool far>
     LKS_FORCE_INLINE void apply(std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b,
                                 const NarrowDifference& d, std::int64_t f) const {
-        const std::int64_t gain =
-            (static_cast<std::int64_t>(shares_[constraint]) * f + gain_rounding_) >> parameters_.gain_shift;
         const std::uint32_t part = parts_b_[constraint];
         if (part == half_part) {
-            move<far, true>(gain, part, a, b, d);
+            move<far, true>(soft ? gain(constraint, f) : half_gain(f), part, a, b, d);
         } else {
-            move<far, false>(gain, part, a, b, d);
+            move<far, false>(gain(constraint, f), part, a, b, d);
         }
+    }
+
+    LKS_FORCE_INLINE std::int64_t gain(std::uint32_t constraint, std::int64_t f) const {
+        return (static_cast<std::int64_t>(shares_[constraint]) * f + gain_rounding_) >>
+               parameters_.gain_shift;
+    }
+    // The same for a share of a half, which is that of all that is stiff and moves alike.
+    LKS_FORCE_INLINE std::int64_t half_gain(std::int64_t f) const {
+        constexpr int half_bits = unit_fraction_bits - 1;
+        return (f + (gain_rounding_ >> half_bits)) >> (parameters_.gain_shift - half_bits);
     }
 
     // Of each end where both move alike, of both together elsewhere.

@@ -84,6 +84,7 @@ struct DistanceTask {
     // By constraint; kernels read up to widest_group - 1 of each behind the last one.
     const std::uint32_t* rest_mantissas;
     // Unit, scaled: of each end where both move alike, and then at most a half; elsewhere of both together.
+    // A half where what is not soft moves alike, which is then not read.
     const std::uint32_t* shares;
     const std::uint32_t* parts_b;     // Direction, 0 .. 1: how much of both ends' movements is b's
     const std::uint32_t* relaxations; // null where needless

@@ -179,6 +179,7 @@ struct LanesAvx2 {
     static Register shift_right_32(Register v) {
         return _mm256_srli_epi32(v, count);
     }
+    static Register shift_right_32_signed(Register v, Shift count) { return _mm256_sra_epi32(v, count); }
     template <int count>
     static Register shift_right_32_signed(Register v) {
         return _mm256_srai_epi32(v, count);

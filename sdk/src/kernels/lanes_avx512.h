@@ -210,6 +210,7 @@ struct LanesAvx512 {
     static Register shift_right_32(Register v) {
         return _mm512_srli_epi32(v, count);
     }
+    static Register shift_right_32_signed(Register v, Shift count) { return _mm512_sra_epi32(v, count); }
     template <int count>
     static Register shift_right_32_signed(Register v) {
         return _mm512_srai_epi32(v, count);

@@ -133,6 +133,9 @@ struct LanesNeon {
     static Register shift_right_32(Register v) {
         return vreinterpretq_u64_u32(vshrq_n_u32(vreinterpretq_u32_u64(v), count));
     }
+    static Register shift_right_32_signed(Register v, Shift count) {
+        return from_32(vshlq_s32(to_32(v), vdupq_laneq_s32(vreinterpretq_s32_s64(count), 0)));
+    }
     template <int count>
     static Register shift_right_32_signed(Register v) {
         return from_32(vshrq_n_s32(to_32(v), count));

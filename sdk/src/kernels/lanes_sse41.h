@@ -98,6 +98,7 @@ struct LanesSse41 {
     static Register shift_right_32(Register v) {
         return _mm_srli_epi32(v, count);
     }
+    static Register shift_right_32_signed(Register v, Shift count) { return _mm_sra_epi32(v, count); }
     template <int count>
     static Register shift_right_32_signed(Register v) {
         return _mm_srai_epi32(v, count);

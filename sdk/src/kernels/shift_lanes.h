@@ -96,6 +96,34 @@ private:
     std::conditional_t<L::has_quick_shift, Whole, InTwo> shift_;
 };
 
+// The same of a half, as a Unit, times each: nothing is multiplied.
+template <typename L>
+class HalfGain {
+    using R = typename L::Register;
+    using F = FactorsOf<L>;
+
+public:
+    explicit HalfGain(int gain_shift)
+        : count_(L::make_shift(gain_shift - half_bits)),
+          rounding_(L::set_32(1 << (gain_shift - half_bits - 1))) {}
+
+    LKS_FORCE_INLINE Factors<L> operator()(const Factors<L>& f) const {
+        if constexpr (L::packs_factors) {
+            return of(f);
+        } else {
+            return {of(f.a), of(f.b)};
+        }
+    }
+
+private:
+    static constexpr int half_bits = unit_fraction_bits - 1;
+
+    LKS_FORCE_INLINE R of(R f) const { return L::shift_right_32_signed(L::add_32(f, rounding_), count_); }
+
+    typename L::Shift count_;
+    R rounding_;
+};
+
 // Numbers of 64 bits to 32 bits in units of 2^count, 20 .. 30, to the nearest and within ±2^30: lifted, that
 // is 2^30 more.
 template <typename L>

@@ -44,10 +44,10 @@ void include(ConstraintRange& range, std::uint32_t constraint) {
     }
 }
 
-// ρ: a half where nothing moves.
+// ρ. Where nothing moves it is not a half: what moves alike and stiffly has a share that nobody reads.
 std::uint32_t part_of_b(const Scaled& w_a, const Scaled& w_b) {
     if (w_a == w_b) {
-        return half_part;
+        return w_a.is_zero() ? 0 : half_part;
     }
     return static_cast<std::uint32_t>((w_b / (w_a + w_b)).to_fixed(direction_fraction_bits));
 }

@@ -58,7 +58,8 @@ public:
     FamilyCoefficients families[family_count];
     FamilyCoefficients tethers; // as the family has them that is damped most
     // By constraint; padded, as kernels read on.
-    Array<std::uint32_t> shares;  // mantissas: s_a where both ends move alike, else s_a + s_b
+    Array<std::uint32_t> shares;  // mantissas: s_a where both ends move alike, else s_a + s_b; without
+                                  // compliance that is a half and one
     Array<std::uint32_t> parts_b; // s_b / (s_a + s_b), Direction
     Array<std::uint32_t>
         relaxations; // r, Unit, by constraint, padded; empty where one iteration makes it needless
