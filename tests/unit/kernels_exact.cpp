@@ -8,58 +8,32 @@
 #include <string>
 #include <vector>
 
-#include "big_integer.h"
+#include "exact_kernels.h"
 #include "fixed/formats.h"
 #include "fixed/int128.h"
 #include "fixed/projection_reciprocal_sqrt.h"
 #include "fixed_samples.h"
-#include "kernels/compiled_kernels.h"
-#include "wide_kernels.h"
+#include "kernels/kernels.h"
 
 using namespace lks;
+using namespace lks::test::exact;
 
 namespace {
 
-using B = test::Big<6>;
-
-B big(std::int64_t value) {
-    return B::from_i64(value);
-}
-B power(int n) {
-    return B::power_of_two(n);
-}
-std::int64_t low(const B& value) {
-    return static_cast<std::int64_t>(value.low64());
-}
-// value / 2^right, half up; exact where that is a shift to the left.
-B rounded(const B& value, int right) {
-    return right > 0 ? test::shift_right_half_up(value, right) : value << -right;
-}
-B floored(const B& value, int right) {
-    return right > 0 ? value >> right : value << -right;
-}
-B between(const B& value, const B& least, const B& greatest) {
-    return value < least ? least : value > greatest ? greatest : value;
-}
-
-std::vector<const Kernels*> all_kernels() {
-    std::vector<const Kernels*> all = test::wide_kernels();
-    all.push_back(&kernels_scalar);
-    return all;
-}
-
-template <std::size_t n>
-std::int64_t one_of(test::Random& random, const std::int64_t (&values)[n]) {
-    return values[random.below(n)];
-}
+// What edges of one batch have in common.
+struct Kind {
+    DistanceParameters parameters;
+    bool soft, damped, records, relaxed;
+    // Which of the batch's ends may have shares of their own, and whether it is told that these are few.
+    enum { none, of_first_edge, of_all_edges } unequal;
+    bool few_unequal;
+};
 
 // One edge: where its ends are and were, and everything that a projection knows about it.
 struct Edge {
     std::int64_t a[3], b[3], start_a[3], start_b[3];
     std::int64_t multiplier;
     std::uint32_t rest, share, part_b, relaxation;
-    DistanceParameters parameters;
-    bool soft, damped, records, relaxed;
 };
 
 constexpr std::int64_t unit_edges[] = {0, 1, 2, unit_one / 2 - 1, unit_one / 2, unit_one - 2, unit_one - 1};
@@ -72,15 +46,40 @@ std::uint32_t any_unit(test::Random& random) {
                                 : static_cast<std::uint32_t>(one_of(random, unit_edges));
 }
 
-// Next to the places where something changes: no length, half a unit, the longest edge that groups take, the
-// ends of the range.
-std::int64_t edge_value(test::Random& random, int shift) {
-    const std::int64_t unit = std::int64_t{1} << shift;
+Kind any_kind(test::Random& random) {
+    Kind kind{};
+    kind.soft = random.below(3) != 0;
+    kind.damped = kind.soft && random.below(2) == 0;
+    kind.records = random.below(2) == 0;
+    kind.relaxed = kind.soft && kind.records && random.below(2) == 0;
+    kind.unequal = random.below(3) == 0   ? Kind::none
+                   : random.below(2) == 0 ? Kind::of_first_edge
+                                          : Kind::of_all_edges;
+    kind.few_unequal = random.below(2) == 0;
+    const int shift = 20 + static_cast<int>(random.below(11));
+    const int exponent = kind.soft ? static_cast<int>(random.below(12)) : 0;
+    const int gain_bits = exponent == 0 ? shift : direction_fraction_bits;
+    kind.parameters.difference_shift = shift;
+    kind.parameters.rest_exponent = 2 + static_cast<int>(random.below(8));
+    kind.parameters.gain_shift = unit_fraction_bits + direction_fraction_bits - gain_bits;
+    kind.parameters.product_shift = gain_bits - shift + exponent;
+    kind.parameters.error_share = kind.damped ? any_unit(random) : unit_one;
+    kind.parameters.damping_share = std::min(unit_one - kind.parameters.error_share, unit_one - 1);
+    return kind;
+}
+
+// Next to the places where something changes: no length, half a unit, the octave of the longest rest length,
+// the longest edge that groups take, the ends of the range.
+std::int64_t edge_value(test::Random& random, const Kind& kind) {
+    const std::int64_t unit = std::int64_t{1} << kind.parameters.difference_shift;
+    const std::int64_t octave = unit << (31 - kind.parameters.rest_exponent);
     const std::int64_t places[] = {0,
                                    unit / 2,
                                    unit,
                                    unit << 15,
                                    unit << 16,
+                                   octave,
+                                   2 * octave,
                                    (unit << 30) - unit / 2,
                                    unit << 30,
                                    coordinate_limit / 2,
@@ -90,46 +89,33 @@ std::int64_t edge_value(test::Random& random, int shift) {
 }
 
 // Where a mantissa of u is largest, and 1/√u least.
-void make_almost_a_power_of_two_long(test::Random& random, Edge& edge) {
+void make_almost_a_power_of_two_long(test::Random& random, const Kind& kind, Edge& edge) {
     std::uint64_t left = std::uint64_t{1} << (2 * (24 + random.below(6)));
     for (int axis = 0; axis < 3; ++axis) {
         const std::uint64_t root = fixed::square_root(fixed::UInt128{0, axis == 0 ? left / 3 : left - 1});
         left -= root * root;
         edge.a[axis] = 0;
-        edge.b[axis] = static_cast<std::int64_t>(root << edge.parameters.difference_shift);
+        edge.b[axis] = static_cast<std::int64_t>(root << kind.parameters.difference_shift);
     }
 }
 
-Edge any_edge(test::Random& random) {
+Edge any_edge(test::Random& random, const Kind& kind, bool may_be_unequal) {
     Edge edge{};
-    edge.soft = random.below(3) != 0;
-    edge.damped = edge.soft && random.below(2) == 0;
-    edge.records = random.below(2) == 0;
-    edge.relaxed = edge.soft && edge.records && random.below(2) == 0;
-    const int shift = 20 + static_cast<int>(random.below(11));
-    const int exponent = edge.soft ? static_cast<int>(random.below(12)) : 0;
-    const int gain_bits = exponent == 0 ? shift : direction_fraction_bits;
-    edge.parameters.difference_shift = shift;
-    edge.parameters.rest_exponent = 2 + static_cast<int>(random.below(8));
-    edge.parameters.gain_shift = unit_fraction_bits + direction_fraction_bits - gain_bits;
-    edge.parameters.product_shift = gain_bits - shift + exponent;
-    edge.parameters.error_share = edge.damped ? any_unit(random) : unit_one;
-    edge.parameters.damping_share = std::min(unit_one - edge.parameters.error_share, unit_one - 1);
+    const auto value = [&] { return edge_value(random, kind); };
     for (int axis = 0; axis < 3; ++axis) {
         const bool close = random.below(3) != 0;
-        edge.a[axis] = edge_value(random, shift);
+        edge.a[axis] = value();
         edge.b[axis] =
-            close ? std::clamp(edge.a[axis] + edge_value(random, shift), -coordinate_limit, coordinate_limit)
-                  : edge_value(random, shift);
-        edge.start_a[axis] = random.below(2) == 0 ? edge.a[axis] : edge_value(random, shift);
-        edge.start_b[axis] = random.below(2) == 0 ? edge.b[axis] : edge_value(random, shift);
+            close ? std::clamp(edge.a[axis] + value(), -coordinate_limit, coordinate_limit) : value();
+        edge.start_a[axis] = random.below(2) == 0 ? edge.a[axis] : value();
+        edge.start_b[axis] = random.below(2) == 0 ? edge.b[axis] : value();
     }
     if (random.below(8) == 0) {
-        make_almost_a_power_of_two_long(random, edge);
+        make_almost_a_power_of_two_long(random, kind, edge);
     }
-    edge.multiplier = edge_value(random, shift);
+    edge.multiplier = value();
     edge.rest = random.below(2) == 0 ? UINT32_MAX >> random.below(4) : 0x80000000u >> random.below(4);
-    edge.part_b = random.below(2) == 0   ? half_part
+    edge.part_b = !may_be_unequal || random.below(2) == 0 ? half_part
                   : random.below(3) == 0 ? static_cast<std::uint32_t>(one_of(random, part_edges))
                                          : static_cast<std::uint32_t>(random.below(direction_one + 1));
     edge.share = edge.part_b != half_part ? any_unit(random)
@@ -140,8 +126,8 @@ Edge any_edge(test::Random& random) {
 }
 
 // solver/distance.h, step by step. Only 1/√u is the kernels' own, which fixed_reciprocal.cpp looks at.
-void project_exactly(Edge& edge) {
-    const DistanceParameters& p = edge.parameters;
+void project_exactly(const Kind& kind, Edge& edge) {
+    const DistanceParameters& p = kind.parameters;
     B wide[3];
     std::uint64_t largest = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -177,7 +163,7 @@ void project_exactly(Edge& edge) {
 
     const B ratio = floored(B::from_u64(edge.rest) * y, 32 + p.rest_exponent + extra - k);
     B f = between(ratio, B{}, one + one) - one;
-    if (edge.damped) {
+    if (kind.damped) {
         B dot = u;
         for (int axis = 0; axis < 3; ++axis) {
             const B start = rounded(big(edge.start_a[axis]) - big(edge.start_b[axis]), scale);
@@ -189,12 +175,12 @@ void project_exactly(Edge& edge) {
         f = floored(B::from_u64(p.error_share) * f - B::from_u64(p.damping_share) * motion + half,
                     unit_fraction_bits);
     }
-    if (edge.relaxed) {
+    if (kind.relaxed) {
         const B length = between(rounded(big(edge.multiplier), scale), big(-INT32_MAX), big(INT32_MAX));
         const B share = rounded(B::from_u64(edge.relaxation) * length, unit_fraction_bits);
         f = between(f - rounded(share * y, 32 - k), -one, one);
     }
-    if (edge.records) {
+    if (kind.records) {
         const B root = between(floored(floored(u << (2 * k), 32) * y, 31), B{}, big(INT32_MAX));
         edge.multiplier = low(big(edge.multiplier) + floored((f + f) * root, 30 + k - scale));
     }
@@ -208,28 +194,58 @@ void project_exactly(Edge& edge) {
     }
 }
 
-// The same edge in all lanes of a run and again without one, so that groups take it wherever they can.
+// How kernels find the constraints of a batch: in runs of some groups and an end, which go in stages, or of
+// so many that groups roll; in rows, as few and as many; in runs of three objects that go side by side.
+enum class Layout { short_run, long_run, short_rows, long_rows, side_by_side };
+constexpr Layout layouts[] = {Layout::short_run, Layout::long_run, Layout::short_rows, Layout::long_rows,
+                              Layout::side_by_side};
+
+bool is_taken(const Kernels& kernels, const Kind& kind, Layout layout) {
+    switch (layout) {
+    case Layout::short_rows:
+    case Layout::long_rows:
+        return kernels.rows.take != nullptr;
+    case Layout::side_by_side:
+        return kernels.side_by_side && !kind.records;
+    default:
+        return true;
+    }
+}
+
+constexpr std::size_t edge_count = 4;
+using Edges = Edge[edge_count];
+
+// One edge in all lanes of the widest group, another in those of the next group: so groups take each wherever
+// they can, and follow each other from one side of a limit to the other. The first edge is the second group's
+// alone.
 class Copies {
 public:
-    Copies(const Edge& edge, const Kernels& kernels) : multipliers_(room, edge.multiplier) {
-        for (int axis = 0; axis < 3; ++axis) {
-            fill(axis, edge.a[axis], edge.b[axis]);
-            fill(axis + 3, edge.start_a[axis], edge.start_b[axis]);
-        }
-        const std::vector<std::uint32_t> rests(room, edge.rest), shares(room, edge.share),
-            parts_b(room, edge.part_b), relaxations(room, edge.relaxation);
+    Copies(const Kind& kind, const Edges& edges, const Kernels& kernels, Layout layout)
+        : count_(layout == Layout::short_run || layout == Layout::short_rows ? 37 : 211),
+          objects_(layout == Layout::side_by_side ? 3 : 1), room_(2 * count_ + widest_group) {
+        fill(edges);
+        std::vector<std::uint32_t> rests, shares, parts_b, relaxations;
         std::vector<Constraint> ends;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            ends.push_back({i, i + count});
+        for (std::uint32_t i = 0; i < count_ + widest_group; ++i) {
+            const Edge& edge = edges[number(i)];
+            rests.push_back(edge.rest);
+            shares.push_back(edge.share);
+            parts_b.push_back(edge.part_b);
+            relaxations.push_back(edge.relaxation);
+            ends.push_back({i, i + count_});
         }
-        const Run run{0, length, 0, count, 0};
+        const Run run{0, count_, 0, count_, 0};
         BatchPart part{};
-        part.range = {0, count};
+        part.range = {0, count_};
         part.runs = &run;
         part.run_count = 1;
         part.whole = true;
-        part.first_single = length;
-        part.unequal_shares = {0, edge.part_b == half_part ? 0 : count};
+        part.first_single = count_;
+        part.unequal_shares = kind.unequal == Kind::none ? ConstraintRange{0, 0}
+                              : kind.unequal == Kind::of_all_edges
+                                  ? ConstraintRange{0, count_}
+                                  : ConstraintRange{widest_group, 2 * widest_group};
+        part.few_unequal = kind.few_unequal;
         DistanceTask task{};
         task.parts = &part;
         task.part_count = 1;
@@ -237,28 +253,36 @@ public:
         task.rest_mantissas = rests.data();
         task.shares = shares.data();
         task.parts_b = parts_b.data();
-        task.relaxations = edge.relaxed ? relaxations.data() : nullptr;
-        task.parameters = edge.parameters;
-        task.arrays = {axes_[0].data(),
-                       axes_[1].data(),
-                       axes_[2].data(),
-                       axes_[3].data(),
-                       axes_[4].data(),
-                       axes_[5].data(),
-                       edge.records ? multipliers_.data() : nullptr};
-        task.soft = edge.soft;
-        task.damped = edge.damped;
-        kernels.project_distances(task);
+        task.relaxations = kind.relaxed ? relaxations.data() : nullptr;
+        task.parameters = kind.parameters;
+        task.soft = kind.soft;
+        task.damped = kind.damped;
+        std::int64_t* multipliers = kind.records ? multipliers_.data() : nullptr;
+        task.arrays = {axes_[0].data(), axes_[1].data(), axes_[2].data(), axes_[3].data(),
+                       axes_[4].data(), axes_[5].data(), multipliers};
+        const std::ptrdiff_t places[] = {0, place_of(room_), place_of(2 * room_)};
+        if (layout == Layout::side_by_side) {
+            task.objects = places;
+            task.object_count = objects_;
+        }
+        if (layout == Layout::short_rows || layout == Layout::long_rows) {
+            project_in_rows(kernels, task);
+        } else {
+            kernels.project_distances(task);
+        }
     }
 
-    bool are(const Edge& edge) const {
-        for (std::uint32_t i = 0; i < count; ++i) {
-            for (int axis = 0; axis < 3; ++axis) {
-                if (axes_[axis][i] != edge.a[axis] || axes_[axis][i + count] != edge.b[axis]) {
-                    return false;
+    bool are(const Kind& kind, const Edges& edges) const {
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const Edge& edge = edges[number(i)];
+            for (std::uint32_t a = i; a < objects_ * room_; a += room_) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    if (axes_[axis][a] != edge.a[axis] || axes_[axis][a + count_] != edge.b[axis]) {
+                        return false;
+                    }
                 }
             }
-            if (edge.records && multipliers_[i] != edge.multiplier) {
+            if (kind.records && multipliers_[i] != edge.multiplier) {
                 return false;
             }
         }
@@ -266,15 +290,47 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t length = 19; // a group of every width and an end
-    static constexpr std::uint32_t count = 2 * length;
-    static constexpr std::uint32_t room = 2 * count + widest_group;
-
-    void fill(int axis, std::int64_t a, std::int64_t b) {
-        axes_[axis].assign(room, a);
-        std::fill(axes_[axis].begin() + count, axes_[axis].end(), b);
+    static std::size_t number(std::uint32_t constraint) {
+        const std::uint32_t group = constraint / widest_group;
+        return group == 1 ? 0 : 1 + group % (edge_count - 1);
     }
 
+    void fill(const Edges& edges) {
+        for (std::vector<std::int64_t>& axis : axes_) {
+            axis.resize(objects_ * room_);
+        }
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const Edge& edge = edges[number(i)];
+            multipliers_.push_back(edge.multiplier);
+            for (std::uint32_t a = i; a < objects_ * room_; a += room_) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    axes_[axis][a] = edge.a[axis];
+                    axes_[axis][a + count_] = edge.b[axis];
+                    axes_[axis + 3][a] = edge.start_a[axis];
+                    axes_[axis + 3][a + count_] = edge.start_b[axis];
+                }
+            }
+        }
+        multipliers_.resize(room_);
+    }
+
+    void project_in_rows(const Kernels& kernels, DistanceTask& task) {
+        std::vector<std::int64_t> rows(2 * row_length * room_);
+        std::int64_t* starts = rows.data() + row_length * room_;
+        const RowTask now{axes_[0].data(), axes_[1].data(), axes_[2].data(), rows.data()};
+        const RowTask start{axes_[3].data(), axes_[4].data(), axes_[5].data(), starts};
+        kernels.rows.take(now, 0, 2 * count_);
+        kernels.rows.take(start, 0, 2 * count_);
+        task.in_rows = true;
+        task.arrays = {now.rows,   now.rows + 1, now.rows + 2,           starts,
+                       starts + 1, starts + 2,   task.arrays.multipliers};
+        kernels.project_distances(task);
+        kernels.rows.give_back(now, 0, 2 * count_);
+    }
+
+    std::uint32_t count_;
+    std::uint32_t objects_;
+    std::uint32_t room_; // of one object
     std::vector<std::int64_t> axes_[6];
     std::vector<std::int64_t> multipliers_;
 };
@@ -285,19 +341,28 @@ TEST_CASE("kernels: projections at the ends of every range are what integers wit
     test::Random random(17);
     std::uint64_t different = 0;
     std::uint64_t moved = 0;
-    const std::uint64_t edges = test::sample_count() / (test::long_run() ? 10 : 200);
+    const std::uint64_t batches = test::sample_count() / edge_count / (test::long_run() ? 10 : 100);
     const std::vector<const Kernels*> all = all_kernels();
-    for (std::uint64_t i = 0; i < edges; ++i) {
-        const Edge edge = any_edge(random);
-        Edge expected = edge;
-        project_exactly(expected);
-        moved += expected.a[0] != edge.a[0] ? 1 : 0;
+    for (std::uint64_t i = 0; i < batches; ++i) {
+        const Kind kind = any_kind(random);
+        Edges edges;
+        Edges expected;
+        for (std::size_t e = 0; e < edge_count; ++e) {
+            edges[e] = expected[e] = any_edge(
+                random, kind, kind.unequal == Kind::of_all_edges || (kind.unequal != Kind::none && e == 0));
+            project_exactly(kind, expected[e]);
+            moved += expected[e].a[0] != edges[e].a[0] ? 1 : 0;
+        }
         for (const Kernels* kernels : all) {
-            different += Copies(edge, *kernels).are(expected) ? 0 : 1;
+            for (const Layout layout : layouts) {
+                if (is_taken(*kernels, kind, layout)) {
+                    different += Copies(kind, edges, *kernels, layout).are(kind, expected) ? 0 : 1;
+                }
+            }
         }
     }
     CHECK(different == 0);
-    CHECK(moved > edges / 4);
+    CHECK(moved > edge_count * batches / 4);
 }
 
 TEST_CASE("kernels: predictions at the ends of every range are what integers without limits give") {
@@ -349,42 +414,6 @@ TEST_CASE("kernels: predictions at the ends of every range are what integers wit
                         clamps.speeds == expected.speeds && clamps.positions == expected.positions ? 0 : 1;
                 }
             }
-        }
-    }
-    CHECK(different == 0);
-}
-
-TEST_CASE("kernels: heights above planes at the ends of the range are what integers without limits give") {
-    const std::int64_t places[] = {-INT64_MAX - 1, -coordinate_limit, -1, 0, coordinate_limit, INT64_MAX};
-    const std::int32_t components[] = {-direction_one, -1, 0, 1, direction_one};
-    test::Random random(8);
-    std::uint64_t different = 0;
-    for (std::uint64_t i = 0; i < 20000; ++i) {
-        std::vector<std::int64_t> axes[3];
-        PlaneTask task{};
-        for (int axis = 0; axis < 3; ++axis) {
-            for (int particle = 0; particle < 64; ++particle) {
-                axes[axis].push_back(one_of(random, places));
-            }
-            task.positions[axis] = axes[axis].data();
-            task.normal[axis] = components[random.below(std::size(components))];
-        }
-        std::uint64_t below = 0;
-        const auto height = [&](std::size_t particle) {
-            B sum{};
-            for (int axis = 0; axis < 3; ++axis) {
-                sum = sum + big(task.normal[axis]) * floored(big(axes[axis][particle]), 32);
-            }
-            return sum;
-        };
-        // At the height of one of them, or an end of the range that planes have.
-        constexpr std::int64_t end = (std::int64_t{1} << 61) - 1;
-        task.level = std::clamp(low(height(random.below(64))), -end, end);
-        for (std::size_t particle = 0; particle < 64; ++particle) {
-            below |= std::uint64_t{height(particle) < big(task.level)} << particle;
-        }
-        for (const Kernels* kernels : all_kernels()) {
-            different += kernels->near_plane(task, 0, 64) == below ? 0 : 1;
         }
     }
     CHECK(different == 0);
