@@ -119,7 +119,7 @@ Edge any_edge(test::Random& random, const Kind& kind, bool may_be_unequal) {
                   : random.below(3) == 0 ? static_cast<std::uint32_t>(one_of(random, part_edges))
                                          : static_cast<std::uint32_t>(random.below(direction_one + 1));
     edge.share = edge.part_b != half_part ? any_unit(random)
-                 : edge.soft              ? (any_unit(random) + 1) / 2
+                 : kind.soft              ? (any_unit(random) + 1) / 2
                                           : unit_one / 2;
     edge.relaxation = any_unit(random);
     return edge;
