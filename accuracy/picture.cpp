@@ -86,6 +86,9 @@ void Picture::line(const std::vector<Place>& places, const Pen& pen) {
     if (pen.is_line) {
         body_ += attribute("stroke", pen.colour) + attribute("stroke-width", pixels(pen.width));
         body_ += pen.dashes.empty() ? "" : attribute("stroke-dasharray", pen.dashes);
+    } else {
+        // Some programs draw no marks of a line without a stroke.
+        body_ += attribute("stroke", pen.colour) + attribute("stroke-opacity", "0");
     }
     if (pen.mark != Mark::none) {
         std::string mark = "url(#";
