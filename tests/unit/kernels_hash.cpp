@@ -19,12 +19,13 @@ TEST_CASE("kernels: every instruction set hashes as XXH3 does") {
     for (unsigned char& byte : bytes) {
         byte = static_cast<unsigned char>(random.bits());
     }
+    const int texts = test::long_run() ? 30'000 : 3000; // of 600 bytes on the average
     std::vector<const Kernels*> all = test::wide_kernels();
     all.push_back(&kernels_scalar);
     for (const Kernels* kernels : all) {
         INFO(std::string(simd_name(kernels->level)));
         std::uint64_t different = 0;
-        for (int i = 0; i < 3000; ++i) {
+        for (int i = 0; i < texts; ++i) {
             const unsigned char* first = bytes.data() + random.below(64);
             const std::size_t size = random.any_magnitude(random.below(8) == 0 ? 16 : 11);
             Hash hash(*kernels);

@@ -213,7 +213,8 @@ constexpr ContactPointKernels counting{
 } // namespace
 
 TEST_CASE("contacts: side by side they are measured, and their rows made, to the bit as by themselves") {
-    const std::uint64_t samples = test::long_run() ? 300'000 : 5'000;
+    // Some 20 points that lanes take of each: 10^7 in long runs.
+    const std::uint64_t samples = test::long_run() ? 600'000 : 5'000;
     for (const Kernels* kernels : test::wide_kernels()) {
         if (kernels->contact_points.begin == nullptr) {
             continue;
