@@ -16,7 +16,8 @@ to 20 minutes.
                  the golden states on aarch64, 32-bit arm, s390x, Windows and WebAssembly, under qemu-user,
                  wine and node: 45 to 80 minutes
   --long         also the exhaustive sweeps, and with --portability g++ and clang at every -O, clang with
-                 -ffast-math, g++ without SIMD, and WebAssembly without SIMD
+                 -ffast-math, g++ without SIMD, WebAssembly without SIMD, and as many samples of the wide
+                 kernels under node and wine as here
   --help         this text
 
   ./test.sh -- -L determinism      only the tests with this label

@@ -25,7 +25,8 @@ quietly cmake -S "$source" -B "$build" -G Ninja -DLOCKSTITCH_RENDER=OFF -DLOCKST
     -DLOCKSTITCH_INSTALL=OFF -DLOCKSTITCH_NESTED_BUILDS=OFF -DLOCKSTITCH_PORTABILITY=OFF "${arguments[@]}"
 # Word splitting is meant: several targets.
 quietly cmake --build "$build" --parallel "$jobs" --target $targets
-# Exhaustive sweeps are for the native build: under an emulator or a sanitizer they would take hours.
+# Exhaustive sweeps are for the native build: under an emulator or a sanitizer they would take hours. What
+# foreign targets take instead they know from their build.
 unset LOCKSTITCH_LONG
 cd "$source"
 exec "$@"

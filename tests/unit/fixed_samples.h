@@ -48,15 +48,22 @@ private:
     std::uint64_t state_;
 };
 
+// Foreign targets are told when they are built: not all see the environment.
 inline bool long_run() {
+#if defined(LKS_TEST_LONG_SAMPLES)
+    return true;
+#else
     const char* value = std::getenv("LOCKSTITCH_LONG");
     return value != nullptr && std::strcmp(value, "1") == 0;
+#endif
 }
 
 // Ten million of each. Unoptimised and sanitised builds, which are there to find other things, and emulators
 // take a hundredth: they are twenty times as slow, and edges are tried everywhere.
 inline std::uint64_t sample_count() {
-#if (defined(__OPTIMIZE__) || defined(NDEBUG)) && !defined(LKS_TEST_EMULATED)
+#if defined(LKS_TEST_LONG_SAMPLES)
+    return LKS_TEST_LONG_SAMPLES;
+#elif (defined(__OPTIMIZE__) || defined(NDEBUG)) && !defined(LKS_TEST_EMULATED)
     return support::sanitised ? 100'000 : 10'000'000;
 #else
     return 100'000;
