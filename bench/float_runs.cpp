@@ -17,21 +17,21 @@ FloatRuns make_float_runs(const lks_asset& asset, const std::vector<std::uint32_
         cloth.z.push_back(static_cast<float>(p.z) * metre);
         cloth.vertices.push_back(asset.particle_to_vertex[particle]);
     }
-    std::vector<float> weights; // inverse masses, zero where pinned
-    for (std::uint32_t particle = 0; particle < asset.vertex_count(); ++particle) {
+    const auto pinned = [&](std::uint32_t particle) {
         const std::uint32_t vertex = asset.particle_to_vertex[particle];
-        const bool pinned =
-            std::find(pinned_vertices.begin(), pinned_vertices.end(), vertex) != pinned_vertices.end();
-        cloth.moving.push_back(pinned ? 0.0f : 1.0f);
-        weights.push_back(pinned ? 0.0f : inverse_mass(asset, particle));
+        return std::find(pinned_vertices.begin(), pinned_vertices.end(), vertex) != pinned_vertices.end();
+    };
+    for (std::uint32_t particle = 0; particle < asset.vertex_count(); ++particle) {
+        cloth.moving.push_back(pinned(particle) ? 0.0f : 1.0f);
     }
     for (std::uint32_t i = 0; i < asset.constraint_count(); ++i) {
         const lks::Constraint ends = asset.constraints[i];
-        const float sum = weights[ends.a] + weights[ends.b];
+        const bool a = pinned(ends.a);
+        const bool b = pinned(ends.b);
         cloth.constraints.push_back(ends);
         cloth.rests.push_back(static_cast<float>(asset.rest_lengths[i]) * metre);
-        cloth.shares_a.push_back(sum > 0 ? weights[ends.a] / sum : 0.0f);
-        cloth.shares_b.push_back(sum > 0 ? weights[ends.b] / sum : 0.0f);
+        cloth.shares_a.push_back(a ? 0.0f : b ? 1.0f : 0.5f);
+        cloth.shares_b.push_back(b ? 0.0f : a ? 1.0f : 0.5f);
     }
     for (const lks::Batch& batch : asset.batches) {
         FloatBatch& made = cloth.batches.emplace_back();

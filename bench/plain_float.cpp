@@ -5,11 +5,6 @@
 
 namespace lks_bench {
 
-float inverse_mass(const lks_asset& asset, std::uint32_t particle) {
-    const lks::fixed::Scaled& w = asset.inverse_masses[particle];
-    return static_cast<float>(std::ldexp(static_cast<double>(w.mantissa), w.exponent));
-}
-
 FloatCloth make_float_cloth(const lks_asset& asset, const std::vector<std::uint32_t>& pinned,
                             EdgeOrder order) {
     constexpr float metre = 1.0f / 72057594037927936.0f; // 2^-56
@@ -17,9 +12,9 @@ FloatCloth make_float_cloth(const lks_asset& asset, const std::vector<std::uint3
     cloth.particles.resize(asset.vertex_count());
     for (std::uint32_t particle = 0; particle < asset.vertex_count(); ++particle) {
         const lks::Coordinates& p = asset.rest_positions[particle];
-        cloth.particles[asset.particle_to_vertex[particle]] = {
-            static_cast<float>(p.x) * metre, static_cast<float>(p.y) * metre, static_cast<float>(p.z) * metre,
-            inverse_mass(asset, particle)};
+        cloth.particles[asset.particle_to_vertex[particle]] = {static_cast<float>(p.x) * metre,
+                                                               static_cast<float>(p.y) * metre,
+                                                               static_cast<float>(p.z) * metre, 1000.0f};
     }
     for (const std::uint32_t vertex : pinned) {
         cloth.particles[vertex].inverse_mass = 0;

@@ -29,13 +29,9 @@ struct FloatCloth {
     std::vector<FloatEdge> edges;
 };
 
-// Of a particle of the asset, in the solver's order; 1/kg.
-float inverse_mass(const lks_asset& asset, std::uint32_t particle);
-
 enum class EdgeOrder { by_colour, by_index };
 
-// The asset's particles at rest, with its masses, and its edges: in the solver's order by colours, or by
-// their lower vertex.
+// The asset's particles at rest and its edges: in the solver's order by colours, or by their lower vertex.
 FloatCloth make_float_cloth(const lks_asset& asset, const std::vector<std::uint32_t>& pinned,
                             EdgeOrder order);
 
