@@ -5,7 +5,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 #include <BulletSoftBody/btSoftBodyInternals.h>
 
-#include "plain_float.h"
+#include "peer_check.h"
 
 namespace lks_bench {
 namespace {
@@ -104,6 +104,14 @@ private:
     std::vector<std::unique_ptr<btSoftBody>> bodies_;
 };
 
+void demand_masses(const lks_asset& asset) {
+    FloatCloth shape = make_float_cloth(asset, {}, EdgeOrder::by_colour);
+    put_out_of_place(shape);
+    Bullet body(shape, 1, 1, 1, 0, BulletBall{});
+    body.project();
+    demand_centre_kept(asset, bullet_name, points_of(shape), body.points());
+}
+
 } // namespace
 
 bool has_bullet() {
@@ -112,6 +120,7 @@ bool has_bullet() {
 
 std::unique_ptr<Variant> make_bullet_peer(const Workload& workload) {
     const WorkloadAsset asset(workload);
+    demand_masses(*asset.get());
     const FloatCloth shape = make_float_cloth(*asset.get(), asset.pinned(), EdgeOrder::by_colour);
     auto bullet = std::make_unique<Bullet>(shape, workload.objects, workload.substeps, workload.iterations, 0,
                                            BulletBall{});

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "float_runs.h"
+#include "peer_check.h"
 #include "plain_float.h"
 
 namespace lks_bench {
@@ -62,6 +63,28 @@ void demand_right(const FloatRuns& cloth, const FloatKernel& kernel) {
     }
 }
 
+void demand_masses(const lks_asset& asset, const FloatKernel& kernel) {
+    FloatRuns body = make_float_runs(asset, {});
+    for (std::uint32_t i = 0; i < body.count; ++i) {
+        const Point place = out_of_place({body.x[i], body.y[i], body.z[i]});
+        body.x[i] = static_cast<float>(place.x);
+        body.y[i] = static_cast<float>(place.y);
+        body.z[i] = static_cast<float>(place.z);
+    }
+    const std::vector<Point> before = points_of(body);
+    kernel.project(body);
+    demand_centre_kept(asset, kernel.name, before, points_of(body));
+}
+
+void demand_masses(const lks_asset& asset, EdgeOrder order) {
+    FloatCloth body = make_float_cloth(asset, {}, order);
+    put_out_of_place(body);
+    const std::vector<Point> before = points_of(body);
+    project_float(body);
+    demand_centre_kept(asset, order == EdgeOrder::by_colour ? coloured_name : indexed_name, before,
+                       points_of(body));
+}
+
 // What each object meets: here all of them stand in one place.
 std::vector<std::vector<FloatSphere>> spheres_of(const Workload& workload) {
     std::vector<std::vector<FloatSphere>> spheres(workload.objects);
@@ -83,6 +106,7 @@ public:
         const WorkloadAsset asset(workload);
         const FloatRuns one = make_float_runs(*asset.get(), asset.pinned());
         demand_right(one, kernel);
+        demand_masses(*asset.get(), kernel);
         objects_.assign(workload.objects, one);
         for (std::uint32_t i = 0; i < workload.warm_ticks; ++i) {
             tick();
@@ -110,14 +134,7 @@ public:
             }
         }
     }
-    std::vector<Point> points() const override {
-        const FloatRuns& object = objects_.front();
-        std::vector<Point> found(object.vertices.size());
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            found[object.vertices[i]] = {object.x[i], object.y[i], object.z[i]};
-        }
-        return found;
-    }
+    std::vector<Point> points() const override { return points_of(objects_.front()); }
 
 private:
     const FloatKernel& kernel_;
@@ -134,6 +151,7 @@ public:
         : substeps_(workload.substeps), iterations_(workload.iterations), fall_(fall_of(workload)),
           spheres_(spheres_of(workload)) {
         const WorkloadAsset asset(workload);
+        demand_masses(*asset.get(), order);
         objects_.assign(workload.objects, make_float_cloth(*asset.get(), asset.pinned(), order));
         for (std::uint32_t i = 0; i < workload.warm_ticks; ++i) {
             tick();
@@ -161,13 +179,7 @@ public:
             }
         }
     }
-    std::vector<Point> points() const override {
-        std::vector<Point> found;
-        for (const FloatParticle& particle : objects_.front().particles) {
-            found.push_back({particle.x, particle.y, particle.z});
-        }
-        return found;
-    }
+    std::vector<Point> points() const override { return points_of(objects_.front()); }
 
 private:
     std::uint32_t substeps_;

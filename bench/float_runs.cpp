@@ -1,8 +1,7 @@
 #include "float_runs.h"
 
-#include <algorithm>
-
 #include "float_runs_lanes.h"
+#include "masses.h"
 
 namespace lks_bench {
 
@@ -17,21 +16,19 @@ FloatRuns make_float_runs(const lks_asset& asset, const std::vector<std::uint32_
         cloth.z.push_back(static_cast<float>(p.z) * metre);
         cloth.vertices.push_back(asset.particle_to_vertex[particle]);
     }
-    const auto pinned = [&](std::uint32_t particle) {
-        const std::uint32_t vertex = asset.particle_to_vertex[particle];
-        return std::find(pinned_vertices.begin(), pinned_vertices.end(), vertex) != pinned_vertices.end();
-    };
-    for (std::uint32_t particle = 0; particle < asset.vertex_count(); ++particle) {
-        cloth.moving.push_back(pinned(particle) ? 0.0f : 1.0f);
+    cloth.inverse_masses = inverse_masses_of(asset, pinned_vertices);
+    for (const double inverse_mass : cloth.inverse_masses) {
+        cloth.moving.push_back(inverse_mass > 0 ? 1.0f : 0.0f);
     }
     for (std::uint32_t i = 0; i < asset.constraint_count(); ++i) {
         const lks::Constraint ends = asset.constraints[i];
-        const bool a = pinned(ends.a);
-        const bool b = pinned(ends.b);
+        const double a = cloth.inverse_masses[ends.a];
+        const double b = cloth.inverse_masses[ends.b];
+        const auto share = [&](double own) { return own > 0 ? static_cast<float>(own / (a + b)) : 0.0f; };
         cloth.constraints.push_back(ends);
         cloth.rests.push_back(static_cast<float>(asset.rest_lengths[i]) * metre);
-        cloth.shares_a.push_back(a ? 0.0f : b ? 1.0f : 0.5f);
-        cloth.shares_b.push_back(b ? 0.0f : a ? 1.0f : 0.5f);
+        cloth.shares_a.push_back(share(a));
+        cloth.shares_b.push_back(share(b));
     }
     for (const lks::Batch& batch : asset.batches) {
         FloatBatch& made = cloth.batches.emplace_back();
@@ -56,6 +53,14 @@ FloatRuns make_float_runs(const lks_asset& asset, const std::vector<std::uint32_
     return cloth;
 }
 
+std::vector<Point> points_of(const FloatRuns& cloth) {
+    std::vector<Point> found(cloth.vertices.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        found[cloth.vertices[i]] = {cloth.x[i], cloth.y[i], cloth.z[i]};
+    }
+    return found;
+}
+
 void project_double(const FloatRuns& cloth, std::vector<double>& x, std::vector<double>& y,
                     std::vector<double>& z) {
     for (std::size_t i = 0; i < cloth.constraints.size(); ++i) {
@@ -63,8 +68,9 @@ void project_double(const FloatRuns& cloth, std::vector<double>& x, std::vector<
         const double dx = x[a] - x[b], dy = y[a] - y[b], dz = z[a] - z[b];
         const double ratio = cloth.rests[i] / __builtin_sqrt(dx * dx + dy * dy + dz * dz);
         const double f = (ratio < 2 ? ratio : 2) - 1;
-        const double f_a = f * static_cast<double>(cloth.shares_a[i]);
-        const double f_b = f * static_cast<double>(cloth.shares_b[i]);
+        const double sum = cloth.inverse_masses[a] + cloth.inverse_masses[b];
+        const double f_a = sum > 0 ? f * cloth.inverse_masses[a] / sum : 0;
+        const double f_b = sum > 0 ? f * cloth.inverse_masses[b] / sum : 0;
         x[a] += dx * f_a, y[a] += dy * f_a, z[a] += dz * f_a;
         x[b] -= dx * f_b, y[b] -= dy * f_b, z[b] -= dz * f_b;
     }

@@ -24,7 +24,8 @@ struct FloatRuns {
     std::vector<std::uint32_t> vertices;
     std::vector<lks::Constraint> constraints;
     std::vector<float> rests;
-    std::vector<float> shares_a, shares_b;
+    std::vector<double> inverse_masses;    // by particle, 0 of what is pinned
+    std::vector<float> shares_a, shares_b; // of a correction, by the inverse masses
     std::vector<FloatBatch> batches;
 };
 
@@ -38,6 +39,8 @@ struct FloatKernel {
     void (*predict)(FloatRuns& cloth, float fall);
     void (*push_out)(FloatRuns& cloth, const FloatSphere& sphere);
 };
+
+std::vector<Point> points_of(const FloatRuns& cloth); // by vertex
 
 extern const FloatKernel float_runs_scalar;
 extern const FloatKernel float_runs_avx2;   // on x86-64

@@ -3,21 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "masses.h"
+
 namespace lks_bench {
 
 FloatCloth make_float_cloth(const lks_asset& asset, const std::vector<std::uint32_t>& pinned,
                             EdgeOrder order) {
     constexpr float metre = 1.0f / 72057594037927936.0f; // 2^-56
+    const std::vector<double> weights = inverse_masses_of(asset, pinned);
     FloatCloth cloth;
     cloth.particles.resize(asset.vertex_count());
     for (std::uint32_t particle = 0; particle < asset.vertex_count(); ++particle) {
         const lks::Coordinates& p = asset.rest_positions[particle];
-        cloth.particles[asset.particle_to_vertex[particle]] = {static_cast<float>(p.x) * metre,
-                                                               static_cast<float>(p.y) * metre,
-                                                               static_cast<float>(p.z) * metre, 1000.0f};
-    }
-    for (const std::uint32_t vertex : pinned) {
-        cloth.particles[vertex].inverse_mass = 0;
+        cloth.particles[asset.particle_to_vertex[particle]] = {
+            static_cast<float>(p.x) * metre, static_cast<float>(p.y) * metre, static_cast<float>(p.z) * metre,
+            static_cast<float>(weights[particle])};
     }
     cloth.starts = cloth.particles;
     for (std::uint32_t i = 0; i < asset.constraint_count(); ++i) {
@@ -82,6 +82,14 @@ void predict_float(FloatCloth& cloth, float fall) {
         }
         start = before;
     }
+}
+
+std::vector<Point> points_of(const FloatCloth& cloth) {
+    std::vector<Point> found;
+    for (const FloatParticle& particle : cloth.particles) {
+        found.push_back({particle.x, particle.y, particle.z});
+    }
+    return found;
 }
 
 } // namespace lks_bench

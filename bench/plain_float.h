@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asset/asset.h"
+#include "variant.h"
 
 namespace lks_bench {
 
@@ -41,5 +42,7 @@ void project_float(FloatCloth& cloth);
 void push_out_float(FloatCloth& cloth, const FloatSphere& sphere);
 // x += v + g·h²: what a substep begins with. `fall` is g·h² on y.
 void predict_float(FloatCloth& cloth, float fall);
+
+std::vector<Point> points_of(const FloatCloth& cloth); // by vertex
 
 } // namespace lks_bench

@@ -36,8 +36,10 @@ constraints = {
     "cloth_64_area": 23938,
     "cloth_50": 14502,
     "mesh_10k": 29642,
+    "mesh_10k_area": 29642,
     "ropes_200": 19800,
 }
+# Peers refuse to be measured where they don't share corrections out by the asset's masses.
 for name, count in constraints.items():
     if value(measure(name), "constraints", "") != count:
         sys.exit(f"{name} has not {count} constraints.")
