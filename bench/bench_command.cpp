@@ -80,6 +80,9 @@ void print(const Results& results, std::size_t from) {
         if (r.ratio != 0) {
             std::printf("  × %.3f", r.ratio);
         }
+        if (r.best != 0) {
+            std::printf("  best %.4g", r.best);
+        }
         std::printf("\n");
     }
     std::fflush(stdout);

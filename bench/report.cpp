@@ -120,9 +120,10 @@ std::string ratios(const Results& results) {
 }
 
 std::string markdown(const Results& results, const std::vector<Plot>& plots) {
-    std::string text = "# What Lockstitch costs\n\n" + machine_name() +
+    std::string text = "# What Lockstitch costs\n\n" + machine_name() + "; " + run_name() +
                        ". One thread but where it says two workers. Medians of rounds in which all variants "
-                       "take turns; all variants of ours give the same bits.\n";
+                       "take turns (the best of the rounds stands beside them in results.json and "
+                       "results.csv); all variants of ours give the same bits.\n";
     text += workload_list(results);
     text += table(results, "Nanoseconds a constraint projection", by_workload, by_variant,
                   [](const Result& r) { return r.measured == "projection"; });

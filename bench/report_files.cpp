@@ -1,5 +1,8 @@
 #include "report_files.h"
 
+#include <lockstitch/lockstitch.h>
+
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -34,6 +37,13 @@ std::string compiler_name() {
 std::string machine_name() {
     return processor_name() + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads; " +
            compiler_name();
+}
+
+std::string run_name() {
+    const std::time_t now = std::time(nullptr);
+    char date[20] = "";
+    std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
+    return "solver version " + std::to_string(lks_solver_version()) + "; " + date + " UTC";
 }
 
 bool make_folder(const std::string& folder, std::string& error) {

@@ -1,4 +1,4 @@
-// What any report needs: its folder, its files, and on what machine it was made.
+// What any report needs: its folder, its files, and on what machine, of what and when it was made.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 namespace lks_bench {
 
 std::string machine_name(); // processor, threads and compiler
+std::string run_name();     // solver version and today's date
 
 // False, with a sentence.
 bool make_folder(const std::string& folder, std::string& error);

@@ -33,6 +33,9 @@ std::string to_json(const Results& results) {
         if (r.ratio != 0) {
             text += R"(, "ratio": )" + number(r.ratio);
         }
+        if (r.best != 0) {
+            text += R"(, "best": )" + number(r.best);
+        }
         text += "}";
         separator = ",\n";
     }
@@ -40,10 +43,11 @@ std::string to_json(const Results& results) {
 }
 
 std::string to_csv(const Results& results) {
-    std::string text = "workload,measured,variant,value,unit,ratio\n";
+    std::string text = "workload,measured,variant,value,unit,ratio,best\n";
+    const auto unless_zero = [](double value) { return value != 0 ? number(value) : std::string(); };
     for (const Result& r : results) {
         text += "\"" + r.workload + "\",\"" + r.measured + "\",\"" + r.variant + "\"," + number(r.value) +
-                ",\"" + r.unit + "\"," + (r.ratio != 0 ? number(r.ratio) : std::string()) + "\n";
+                ",\"" + r.unit + "\"," + unless_zero(r.ratio) + "," + unless_zero(r.best) + "\n";
     }
     return text;
 }

@@ -13,6 +13,7 @@ struct Result {
     double value;
     std::string unit;
     double ratio = 0; // to the first variant, median of the ratios within rounds; 0: none
+    double best = 0; // of the rounds, the value being their median: the least time, the highest rate; 0: none
 };
 
 using Results = std::vector<Result>;

@@ -69,7 +69,7 @@ void measure_accuracy(int rounds, Results& results) {
             contenders.push_back({name, [variant] { variant->tick(); }, 1});
         }
         for (const Measurement& m : measure_in_turns(contenders, rounds)) {
-            results.push_back({accuracy_name, label, m.name, m.nanoseconds * 1e-6, "ms"});
+            results.push_back({accuracy_name, label, m.name, m.nanoseconds * 1e-6, "ms", 0, m.least * 1e-6});
         }
     }
 }

@@ -71,7 +71,7 @@ void measure_bodies(int rounds, Results& results) {
                               static_cast<double>(ticks) * count});
     }
     for (const Measurement& m : measure_in_turns(contenders, rounds)) {
-        results.push_back({bodies_name, "tick", m.name, m.nanoseconds, "ns a body", m.ratio});
+        results.push_back({bodies_name, "tick", m.name, m.nanoseconds, "ns a body", m.ratio, m.least});
     }
 }
 

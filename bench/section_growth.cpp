@@ -20,7 +20,8 @@ void measure_growth(int rounds, Results& results) {
         // A million constraints in plain integers take a quarter of a second a tick.
         const int affordable = std::max(3, std::min(rounds, static_cast<int>(1e7 / units * 21)));
         for (const Measurement& m : measure_in_turns(contenders, std::min(rounds, affordable))) {
-            results.push_back({workload.name, "tick", m.name, m.nanoseconds, "ns a projection", m.ratio});
+            results.push_back(
+                {workload.name, "tick", m.name, m.nanoseconds, "ns a projection", m.ratio, m.least});
         }
         results.push_back({workload.name, "constraints", "", constraints, ""});
     }

@@ -27,7 +27,8 @@ void measure_snapshots(int rounds, Results& results) {
                               {"hash", [&] { sink = lks_world_hash(world); }, bytes}},
                              2 * rounds + 1);
         for (const Measurement& m : measured) {
-            results.push_back({snapshots_name, m.name, lks_simd_name(simd), 1 / m.nanoseconds, "GB/s"});
+            results.push_back(
+                {snapshots_name, m.name, lks_simd_name(simd), 1 / m.nanoseconds, "GB/s", 0, 1 / m.least});
         }
     }
 }

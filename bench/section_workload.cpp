@@ -30,7 +30,8 @@ void measure_threads(const Workload& workload, double units, int rounds, Results
         const std::unique_ptr<Variant> two = make_variant(workload, two_workers);
         for (const Measurement& m :
              measure_in_turns({ticks(*one, one_worker), ticks(*two, two_workers)}, rounds)) {
-            results.push_back({workload.name, "threads", m.name, m.nanoseconds, "ns a projection", m.ratio});
+            results.push_back(
+                {workload.name, "threads", m.name, m.nanoseconds, "ns a projection", m.ratio, m.least});
         }
     }
 }
@@ -54,11 +55,13 @@ void measure_workload(const Workload& workload, int rounds, bool thrifty, Result
         ticks.push_back({name, [variant] { variant->tick(); }, units});
     }
     for (const Measurement& m : measure_in_turns(projections, rounds)) {
-        results.push_back({workload.name, "projection", m.name, m.nanoseconds, "ns", m.ratio});
+        results.push_back({workload.name, "projection", m.name, m.nanoseconds, "ns", m.ratio, m.least});
     }
     for (const Measurement& m : measure_in_turns(ticks, rounds)) {
-        results.push_back({workload.name, "tick", m.name, m.nanoseconds, "ns a projection", m.ratio});
-        results.push_back({workload.name, "tick", m.name, m.nanoseconds * units * 1e-6, "ms"});
+        results.push_back(
+            {workload.name, "tick", m.name, m.nanoseconds, "ns a projection", m.ratio, m.least});
+        results.push_back(
+            {workload.name, "tick", m.name, m.nanoseconds * units * 1e-6, "ms", 0, m.least * units * 1e-6});
     }
     measure_threads(workload, units, rounds, results);
     const MemoryUse memory = count_memory(workload);

@@ -24,11 +24,15 @@ def measure(*parts):
     return json.loads(run(program, "bench", *parts, "--rounds", "1", "--json").stdout)
 
 
-def value(results, measured, variant):
-    found = [r["value"] for r in results if (r["measured"], r["variant"]) == (measured, variant)]
-    if not found or found[0] <= 0:
+def result(results, measured, variant):
+    found = [r for r in results if (r["measured"], r["variant"]) == (measured, variant)]
+    if not found or found[0]["value"] <= 0:
         sys.exit(f"{measured} of '{variant}' was not measured: {found}")
     return found[0]
+
+
+def value(results, measured, variant):
+    return result(results, measured, variant)["value"]
 
 
 constraints = {
@@ -58,7 +62,9 @@ for measured in "save", "load", "hash", "memcpy":
 cloth = measure("cloth_50")
 for measured in "projection", "tick":
     for variant in "scalar", "float32 runs, scalar", "float32 plain, by index":
-        value(cloth, measured, variant)
+        of_one_round = result(cloth, measured, variant)
+        if of_one_round["best"] != of_one_round["value"]:
+            sys.exit(f"Of one round the best is not the median: {of_one_round}")
 value(cloth, "in runs", "")
 value(measure("overhead"), "tick", "empty world")
 lying = measure("contacts")
@@ -99,7 +105,12 @@ with tempfile.TemporaryDirectory() as folder:
     text = pathlib.Path(folder, "report.md").read_text()
     if not re.search(r"\| cloth_50 \| .*14502 \|", text) or "float32 plain, coloured" not in text:
         sys.exit("The report doesn't tell of cloth_50.")
+    if not re.search(r"solver version \d+; \d{4}-\d\d-\d\d UTC", text):
+        sys.exit("The report doesn't say of what solver it is, and when it was made.")
     json.loads(pathlib.Path(folder, "results.json").read_text())
+    table = pathlib.Path(folder, "results.csv").read_text().splitlines()
+    if table[0] != "workload,measured,variant,value,unit,ratio,best":
+        sys.exit(f"The columns of results.csv are {table[0]}.")
 
 if len(sys.argv) > 2:
     lines = run(sys.argv[2], "--benchmark_filter=^cloth_50/tick/scalar$", "--benchmark_min_time=0.01").stdout
