@@ -1,26 +1,14 @@
 #include "plots.h"
 
 #include <algorithm>
-#include <utility>
 
+#include "error_plot.h"
 #include "gnuplot.h"
+#include "plot_looks.h"
 #include "workloads.h"
 
 namespace lks_bench {
 namespace {
-
-// In the order in which they were measured, each once.
-std::vector<std::string> variants_of(const Results& results, const std::string& workload,
-                                     const std::string& measured) {
-    std::vector<std::string> names;
-    for (const Result& r : results) {
-        if (r.workload.rfind(workload, 0) == 0 && r.measured == measured && !r.variant.empty() &&
-            std::find(names.begin(), names.end(), r.variant) == names.end()) {
-            names.push_back(r.variant);
-        }
-    }
-    return names;
-}
 
 std::vector<std::string> workloads_of(const Results& results, const std::string& measured,
                                       const std::string& prefix) {
@@ -34,35 +22,8 @@ std::vector<std::string> workloads_of(const Results& results, const std::string&
     return names;
 }
 
-bool is_ours(const std::string& variant) {
-    return variant.rfind("float32", 0) != 0 && variant.rfind("Bullet", 0) != 0;
-}
-
-std::string title_of(const std::string& variant, const std::string& more = "") {
-    return " title '" + (is_ours(variant) ? "ours, " + variant : variant) + more + "'";
-}
-
-// Blue is ours, orange float32 with the same care, grey plain float32, green what comes in packages.
-std::string colour_of(const std::string& variant) {
-    static const std::pair<const char*, const char*> colours[] = {
-        {"scalar", "#9ecae1"},
-        {"sse4.1", "#4292c6"},
-        {"avx2", "#08519c"},
-        {"avx512", "#081d58"},
-        {"neon", "#08519c"},
-        {"float32 runs, scalar", "#fdbe85"},
-        {"float32 runs, AVX2", "#fd8d3c"},
-        {"float32 runs, AVX-512", "#d94701"},
-        {"float32 plain, coloured", "#969696"},
-        {"float32 plain, by index", "#525252"},
-        {"Bullet soft body", "#31a354"},
-    };
-    for (const auto& [name, colour] : colours) {
-        if (variant == name) {
-            return std::string(" lc rgb '") + colour + "'";
-        }
-    }
-    return " lc rgb '#54278f'";
+std::string title_of(const std::string& variant) {
+    return " title '" + name_in_plots(variant) + "'";
 }
 
 void size_plot(const Results& results, Script& script) {
@@ -114,40 +75,6 @@ void bar_plot(const Results& results, const std::vector<std::string>& workloads,
     script.command("plot " + comma_separated(bars));
 }
 
-// A curve a variant and kind of schedule: more substeps of one iteration, more iterations of one substep.
-void error_plot(const Results& results, Script& script) {
-    script.command("set logscale xy\nset xlabel 'milliseconds a tick'");
-    script.command("set ylabel 'residual stretch, root mean square'\nset format y '10^{%T}'");
-    std::vector<std::string> curves;
-    for (const std::string& variant : variants_of(results, "accuracy", "5 × 1")) {
-        if (variant == "sse4.1" || variant == "float32 runs, scalar" ||
-            variant == "float32 plain, by index") {
-            continue;
-        }
-        for (const bool substeps : {true, false}) {
-            std::string lines;
-            for (const char* count : {"5", "10", "20", "40", "80"}) {
-                const std::string label =
-                    substeps ? std::string(count) + " × 1" : "1 × " + std::string(count);
-                double cost = 0;
-                double error = 0;
-                for (const Result& r : results) {
-                    if (r.workload == "accuracy" && r.measured == label && r.variant == variant) {
-                        (r.unit == "ms" ? cost : error) = r.value;
-                    }
-                }
-                if (cost > 0 && error > 0) {
-                    lines += value_pair(cost, error);
-                }
-            }
-            curves.push_back(script.data(lines) + " with linespoints lw 2" + colour_of(variant) +
-                             (substeps ? " dt 1 pt 7" : " dt 2 pt 6") +
-                             title_of(variant, substeps ? ", substeps" : ", iterations"));
-        }
-    }
-    script.command("plot " + comma_separated(curves));
-}
-
 } // namespace
 
 bool draw_plots(const std::string& folder, const Results& results, std::vector<Plot>& drawn,
@@ -187,9 +114,10 @@ bool draw_plots(const std::string& folder, const Results& results, std::vector<P
                  [&](Script& script) { bar_plot(results, with_peers, true, script); });
     }
     if (good && !variants_of(results, "accuracy", "5 × 1").empty()) {
-        good = make({"cost-against-error.svg",
-                     "Cost against error: 64² cloth that falls and swings, 5 to 80 passes a tick"},
-                    [&](Script& script) { error_plot(results, script); });
+        good = make(
+            {"cost-against-error.svg",
+             "Cost against error: 64² cloth let go where it hangs from two corners, 5 to 80 passes a tick"},
+            [&](Script& script) { error_plot(results, script); });
     }
     return good;
 }

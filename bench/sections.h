@@ -43,8 +43,9 @@ void measure_ropes(int rounds, Results& results);
 void measure_growth(int rounds, Results& results);
 // 1,250 to 20,000 balls side by side on the ground, at one substep: nanoseconds a body and tick.
 void measure_bodies(int rounds, Results& results);
-// A 64² cloth that falls and swings for two seconds: milliseconds a tick, and the root mean square of the
-// relative stretch of its constraints over the last second, for substeps × iterations.
+// A 64² cloth that is let go where it hangs from two corners, for two seconds: milliseconds a tick, and the
+// root mean square of the relative stretch of its constraints over the last second, for substeps ×
+// iterations.
 void measure_accuracy(int rounds, Results& results);
 // Instructions a projection, counted by valgrind. False, with a sentence: it can't be run.
 bool count_instructions(const std::string& program, Results& results, std::string& error);
