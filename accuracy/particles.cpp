@@ -62,7 +62,7 @@ public:
         }
         body_ = lks_bench::make_bullet_body(shape, static_cast<std::uint32_t>(schedule.substeps),
                                             static_cast<std::uint32_t>(schedule.iterations),
-                                            scene.linear_damping, ball_of(scene));
+                                            scene.linear_damping, balls_of(scene));
     }
 
     void tick() override { body_->tick(); }
@@ -77,9 +77,13 @@ public:
     double force(std::size_t) const override { return undefined; }
 
 private:
-    static lks_bench::BulletBall ball_of(const reference::ParticleScene& scene) {
+    static std::vector<lks_bench::FloatSphere> balls_of(const reference::ParticleScene& scene) {
+        if (scene.ball.radius <= 0) {
+            return {};
+        }
         const support::Vector& centre = scene.ball.centre;
-        return {{centre.x, centre.y, centre.z}, scene.ball.radius};
+        return {{static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z),
+                 static_cast<float>(scene.ball.radius)}};
     }
 
     std::unique_ptr<lks_bench::Variant> body_;

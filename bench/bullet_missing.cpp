@@ -12,7 +12,7 @@ std::unique_ptr<Variant> make_bullet_peer(const Workload&) {
 }
 
 std::unique_ptr<Variant> make_bullet_body(const FloatCloth&, std::uint32_t, std::uint32_t, double,
-                                          const BulletBall&) {
+                                          const std::vector<FloatSphere>&) {
     return nullptr;
 }
 

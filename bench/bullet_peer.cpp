@@ -6,24 +6,37 @@
 #include <BulletSoftBody/btSoftBodyInternals.h>
 
 #include "peer_check.h"
+#include "spheres.h"
 
 namespace lks_bench {
 namespace {
 
+struct Settings {
+    std::uint32_t substeps, iterations;
+    double damping = 0;    // share of velocity that is lost a second
+    double hardness = 0.1; // share of a depth that one iteration of a contact undoes; this is Bullet's own
+};
+
 class Bullet final : public Variant {
 public:
-    Bullet(const FloatCloth& shape, std::uint32_t objects, std::uint32_t substeps, std::uint32_t iterations,
-           double damping, const BulletBall& ball)
-        : substeps_(substeps), iterations_(iterations) {
+    // As many bodies as there are lists of what each of them meets.
+    Bullet(const FloatCloth& shape, const std::vector<std::vector<FloatSphere>>& met,
+           const Settings& settings)
+        : substeps_(settings.substeps), iterations_(settings.iterations) {
         info_.m_gravity = btVector3(0, btScalar(-9.81), 0);
         info_.air_density = 0;
         info_.m_sparsesdf.Initialize();
-        if (ball.radius > 0) {
-            add_ball(ball);
-        }
-        for (std::uint32_t i = 0; i < objects; ++i) {
+        // Bullet's own contact, by a field of distances: as fine as leaves it a tenth of a millimetre.
+        info_.m_sparsesdf.m_defaultVoxelsz = btScalar(0.02);
+        info_.m_sparsesdf.Reset();
+        for (const std::vector<FloatSphere>& spheres : met) {
             bodies_.push_back(make_body(shape));
-            bodies_.back()->m_cfg.kDP = btScalar(damping / (60 * substeps));
+            bodies_.back()->m_cfg.kDP = btScalar(settings.damping / (60 * substeps_));
+            bodies_.back()->m_cfg.kKHR = btScalar(settings.hardness);
+            std::vector<std::unique_ptr<btCollisionObject>>& balls = balls_.emplace_back();
+            for (const FloatSphere& sphere : spheres) {
+                balls.push_back(make_ball(sphere));
+            }
         }
     }
 
@@ -35,13 +48,14 @@ public:
         }
     }
     void tick() override {
-        for (const std::unique_ptr<btSoftBody>& body : bodies_) {
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            btSoftBody* const body = bodies_[i].get();
             for (std::uint32_t substep = 0; substep < substeps_; ++substep) {
                 body->predictMotion(btScalar(1) / btScalar(60 * substeps_));
-                if (ball_shape_ != nullptr) {
-                    const btCollisionObjectWrapper ball(nullptr, ball_shape_.get(), &ball_,
-                                                        ball_.getWorldTransform(), -1, -1);
-                    body->defaultCollisionHandler(&ball);
+                for (const std::unique_ptr<btCollisionObject>& ball : balls_[i]) {
+                    const btCollisionObjectWrapper wrapper(nullptr, ball->getCollisionShape(), ball.get(),
+                                                           ball->getWorldTransform(), -1, -1);
+                    body->defaultCollisionHandler(&wrapper);
                 }
                 body->solveConstraints();
                 body->integrateMotion();
@@ -59,16 +73,24 @@ public:
     }
 
 private:
-    // Bullet's own contact, by a field of distances: as fine as leaves it a tenth of a millimetre.
-    void add_ball(const BulletBall& ball) {
-        info_.m_sparsesdf.m_defaultVoxelsz = btScalar(0.02);
-        info_.m_sparsesdf.Reset();
-        ball_shape_ = std::make_unique<btSphereShape>(btScalar(ball.radius));
-        ball_.setCollisionShape(ball_shape_.get());
+    // One shape a radius: a field belongs to a shape, and balls of one shape share it.
+    btSphereShape* shape_of(float radius) {
+        for (const std::unique_ptr<btSphereShape>& shape : ball_shapes_) {
+            if (shape->getRadius() == btScalar(radius)) {
+                return shape.get();
+            }
+        }
+        return ball_shapes_.emplace_back(std::make_unique<btSphereShape>(btScalar(radius))).get();
+    }
+
+    std::unique_ptr<btCollisionObject> make_ball(const FloatSphere& sphere) {
+        auto ball = std::make_unique<btCollisionObject>();
+        ball->setCollisionShape(shape_of(sphere.radius));
         btTransform place = btTransform::getIdentity();
-        place.setOrigin(btVector3(btScalar(ball.centre.x), btScalar(ball.centre.y), btScalar(ball.centre.z)));
-        ball_.setWorldTransform(place);
-        ball_.setFriction(0);
+        place.setOrigin(btVector3(btScalar(sphere.x), btScalar(sphere.y), btScalar(sphere.z)));
+        ball->setWorldTransform(place);
+        ball->setFriction(0);
+        return ball;
     }
 
     std::unique_ptr<btSoftBody> make_body(const FloatCloth& shape) {
@@ -99,15 +121,15 @@ private:
     std::uint32_t substeps_;
     std::uint32_t iterations_;
     btSoftBodyWorldInfo info_;
-    std::unique_ptr<btSphereShape> ball_shape_;
-    btCollisionObject ball_;
+    std::vector<std::unique_ptr<btSphereShape>> ball_shapes_;
+    std::vector<std::vector<std::unique_ptr<btCollisionObject>>> balls_; // that each body meets
     std::vector<std::unique_ptr<btSoftBody>> bodies_;
 };
 
 void demand_masses(const lks_asset& asset) {
     FloatCloth shape = make_float_cloth(asset, {}, EdgeOrder::by_colour);
     put_out_of_place(shape);
-    Bullet body(shape, 1, 1, 1, 0, BulletBall{});
+    Bullet body(shape, {{}}, {.substeps = 1, .iterations = 1});
     body.project();
     demand_centre_kept(asset, bullet_name, points_of(shape), body.points());
 }
@@ -121,9 +143,13 @@ bool has_bullet() {
 std::unique_ptr<Variant> make_bullet_peer(const Workload& workload) {
     const WorkloadAsset asset(workload);
     demand_masses(*asset.get());
-    const FloatCloth shape = make_float_cloth(*asset.get(), asset.pinned(), EdgeOrder::by_colour);
-    auto bullet = std::make_unique<Bullet>(shape, workload.objects, workload.substeps, workload.iterations, 0,
-                                           BulletBall{});
+    FloatCloth shape = make_float_cloth(*asset.get(), asset.pinned(), EdgeOrder::by_colour);
+    if (workload.colliders) {
+        lay_level(shape);
+    }
+    // As hard as can be: with Bullet's own hardness cloths sink in by a centimetre.
+    const Settings settings{workload.substeps, workload.iterations, 0, 1};
+    auto bullet = std::make_unique<Bullet>(shape, spheres_of(workload), settings);
     for (std::uint32_t i = 0; i < workload.warm_ticks; ++i) {
         bullet->tick();
     }
@@ -131,8 +157,10 @@ std::unique_ptr<Variant> make_bullet_peer(const Workload& workload) {
 }
 
 std::unique_ptr<Variant> make_bullet_body(const FloatCloth& shape, std::uint32_t substeps,
-                                          std::uint32_t iterations, double damping, const BulletBall& ball) {
-    return std::make_unique<Bullet>(shape, 1, substeps, iterations, damping, ball);
+                                          std::uint32_t iterations, double damping,
+                                          const std::vector<FloatSphere>& met) {
+    const std::vector<std::vector<FloatSphere>> one_body{met};
+    return std::make_unique<Bullet>(shape, one_body, Settings{substeps, iterations, damping});
 }
 
 } // namespace lks_bench

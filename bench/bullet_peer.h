@@ -10,14 +10,10 @@ inline constexpr const char* bullet_name = "Bullet soft body";
 
 bool has_bullet();
 std::unique_ptr<Variant> make_bullet_peer(const Workload& workload);
-// What a body may meet: a frictionless ball that does not move.
-struct BulletBall {
-    Point centre{};
-    double radius = 0; // 0: none
-};
-// Of one body; `damping` is the share of velocity that is lost a second. Null: no Bullet.
+// Of one body, which meets frictionless spheres that do not move; `damping` is the share of velocity that is
+// lost a second. Null: no Bullet.
 std::unique_ptr<Variant> make_bullet_body(const FloatCloth& shape, std::uint32_t substeps,
                                           std::uint32_t iterations, double damping,
-                                          const BulletBall& ball = {});
+                                          const std::vector<FloatSphere>& met);
 
 } // namespace lks_bench

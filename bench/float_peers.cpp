@@ -7,6 +7,7 @@
 #include "float_runs.h"
 #include "peer_check.h"
 #include "plain_float.h"
+#include "spheres.h"
 
 namespace lks_bench {
 namespace {
@@ -85,28 +86,18 @@ void demand_masses(const lks_asset& asset, EdgeOrder order) {
                        points_of(body));
 }
 
-// What each object meets: here all of them stand in one place.
-std::vector<std::vector<FloatSphere>> spheres_of(const Workload& workload) {
-    std::vector<std::vector<FloatSphere>> spheres(workload.objects);
-    for (std::size_t object = 0; workload.colliders && object < spheres.size(); ++object) {
-        for (const Ball& ball : balls) {
-            const int x = ball.x - object_distance * static_cast<int>(object);
-            const auto metres = [](int tenths) { return static_cast<float>(tenths) / 10; };
-            spheres[object].push_back({metres(x), metres(ball.y), metres(ball.z), metres(ball.radius)});
-        }
-    }
-    return spheres;
-}
-
 class Runs final : public Variant {
 public:
     Runs(const Workload& workload, const FloatKernel& kernel)
         : kernel_(kernel), substeps_(workload.substeps), iterations_(workload.iterations),
           fall_(fall_of(workload)), spheres_(spheres_of(workload)) {
         const WorkloadAsset asset(workload);
-        const FloatRuns one = make_float_runs(*asset.get(), asset.pinned());
+        FloatRuns one = make_float_runs(*asset.get(), asset.pinned());
         demand_right(one, kernel);
         demand_masses(*asset.get(), kernel);
+        if (workload.colliders) {
+            lay_level(one);
+        }
         objects_.assign(workload.objects, one);
         for (std::uint32_t i = 0; i < workload.warm_ticks; ++i) {
             tick();
@@ -152,7 +143,11 @@ public:
           spheres_(spheres_of(workload)) {
         const WorkloadAsset asset(workload);
         demand_masses(*asset.get(), order);
-        objects_.assign(workload.objects, make_float_cloth(*asset.get(), asset.pinned(), order));
+        FloatCloth one = make_float_cloth(*asset.get(), asset.pinned(), order);
+        if (workload.colliders) {
+            lay_level(one);
+        }
+        objects_.assign(workload.objects, one);
         for (std::uint32_t i = 0; i < workload.warm_ticks; ++i) {
             tick();
         }

@@ -53,6 +53,15 @@ FloatRuns make_float_runs(const lks_asset& asset, const std::vector<std::uint32_
     return cloth;
 }
 
+void lay_level(FloatRuns& cloth) {
+    cloth.y.swap(cloth.z);
+    for (float& y : cloth.y) {
+        y = -y;
+    }
+    cloth.start_y = cloth.y;
+    cloth.start_z = cloth.z;
+}
+
 std::vector<Point> points_of(const FloatRuns& cloth) {
     std::vector<Point> found(cloth.vertices.size());
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -40,6 +40,8 @@ struct FloatKernel {
     void (*push_out)(FloatRuns& cloth, const FloatSphere& sphere);
 };
 
+void lay_level(FloatRuns& cloth); // as in plain_float.h
+
 std::vector<Point> points_of(const FloatRuns& cloth); // by vertex
 
 extern const FloatKernel float_runs_scalar;

@@ -84,6 +84,15 @@ void predict_float(FloatCloth& cloth, float fall) {
     }
 }
 
+void lay_level(FloatCloth& cloth) {
+    for (FloatParticle& particle : cloth.particles) {
+        const float upright = particle.y;
+        particle.y = -particle.z;
+        particle.z = upright;
+    }
+    cloth.starts = cloth.particles;
+}
+
 std::vector<Point> points_of(const FloatCloth& cloth) {
     std::vector<Point> found;
     for (const FloatParticle& particle : cloth.particles) {

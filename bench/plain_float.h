@@ -43,6 +43,9 @@ void push_out_float(FloatCloth& cloth, const FloatSphere& sphere);
 // x += v + g·h²: what a substep begins with. `fall` is g·h² on y.
 void predict_float(FloatCloth& cloth, float fall);
 
+// What stood upright lies level, as workloads with colliders begin: about x by 90°.
+void lay_level(FloatCloth& cloth);
+
 std::vector<Point> points_of(const FloatCloth& cloth); // by vertex
 
 } // namespace lks_bench

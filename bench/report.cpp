@@ -134,6 +134,11 @@ std::string markdown(const Results& results, const std::vector<Plot>& plots) {
                   [](const Result& r) { return r.measured == "threads"; });
     text += table(results, "Milliseconds a tick", by_workload, by_variant,
                   [](const Result& r) { return r.measured == "tick" && r.unit == "ms"; });
+    text += table(results, "Over spheres: the deepest point of an object below a surface, in mm", by_workload,
+                  by_variant, [](const Result& r) { return r.measured == "deepest"; });
+    text +=
+        table(results, "Over spheres: particles of an object within a millimetre of a surface, or below it",
+              by_workload, by_variant, [](const Result& r) { return r.measured == "resting"; });
     text += table(results, "Instructions a projection (valgrind; knows no AVX-512)", by_workload, by_variant,
                   [](const Result& r) { return r.measured == "instructions"; });
     text += table(results, "Snapshots of a 256² cloth, GB/s", by_variant, by_measured,

@@ -3,6 +3,7 @@
 #include "measure.h"
 #include "memory_count.h"
 #include "sections.h"
+#include "spheres.h"
 #include "variant.h"
 
 namespace lks_bench {
@@ -62,6 +63,13 @@ void measure_workload(const Workload& workload, int rounds, bool thrifty, Result
             {workload.name, "tick", m.name, m.nanoseconds, "ns a projection", m.ratio, m.least});
         results.push_back(
             {workload.name, "tick", m.name, m.nanoseconds * units * 1e-6, "ms", 0, m.least * units * 1e-6});
+    }
+    // That they rest on the same spheres, and do not fall through.
+    for (std::size_t i = 0; workload.colliders && i < variants.size(); ++i) {
+        const Resting found = resting(variants[i]->points(), spheres_of(workload).front());
+        results.push_back({workload.name, "deepest", ticks[i].name, 1000 * found.deepest, "mm"});
+        results.push_back({workload.name, "resting", ticks[i].name, static_cast<double>(found.points),
+                           "particles of an object"});
     }
     measure_threads(workload, units, rounds, results);
     const MemoryUse memory = count_memory(workload);

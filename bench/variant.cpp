@@ -58,8 +58,7 @@ std::vector<std::string> variant_names(const Workload& workload) {
     for (const std::string& name : float_peer_names()) {
         names.push_back(name);
     }
-    // Bullet's soft bodies meet colliders through a collision world of rigid bodies, with margins of its own.
-    if (has_bullet() && !workload.colliders) {
+    if (has_bullet()) {
         names.emplace_back(bullet_name);
     }
     return names;

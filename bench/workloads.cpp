@@ -119,6 +119,7 @@ WorkloadAsset::WorkloadAsset(const Workload& workload, const lks_allocator& allo
         def.vertex_masses = masses.data();
         def.stretch = material;
         def.bend = {0, 0, 0, 0};
+        def.particle_radius = 0;
         def.allocator = allocator;
         def.error = &error;
         demand(lks_asset_create_rope(&def, &asset_), "a rope", error.message);
@@ -149,6 +150,7 @@ WorkloadAsset::WorkloadAsset(const Workload& workload, const lks_allocator& allo
     def.stretch = material;
     def.shear = workload.shape == Shape::mesh ? lks_distance_material{} : material;
     def.bend = material;
+    def.particle_radius = 0; // the peers' particles are points
     def.allocator = allocator;
     def.error = &error;
     demand(lks_asset_create_cloth(&def, &asset_), "a cloth", error.message);
@@ -174,6 +176,10 @@ BenchWorld::BenchWorld(const Workload& workload, lks_simd simd, std::uint32_t wo
         lks_object_def object_def = lks_default_object_def();
         object_def.asset = asset_.get();
         object_def.transform.position.x = static_cast<lks_fixed>(i) * LKS_FIXED_RATIO(object_distance, 10);
+        if (workload.colliders) {
+            demand(lks_rotation_from_axis_angle(1, 0, 0, 90, &object_def.transform.rotation), "a rotation",
+                   "it is refused");
+        }
         lks_object_id object{};
         demand(lks_world_add_object(world_, &object_def, &object), "an object",
                lks_world_last_error(world_)->message);

@@ -21,7 +21,7 @@ struct Workload {
     double compliance = 0;       // m/N
     double damping = 0;          // N·s/m
     bool masses_by_area = false; // of a cloth or a mesh; otherwise all are equal
-    bool colliders = false;
+    bool colliders = false;      // which it falls on from where it lies level
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
     std::uint32_t warm_ticks = 20; // before anything is measured, so that it hangs and swings
@@ -31,7 +31,7 @@ struct Workload {
 struct Ball {
     int x, y, z, radius;
 };
-inline constexpr Ball balls[] = {{0, -10, 5, 4}, {10, -10, 5, 4}};
+inline constexpr Ball balls[] = {{0, -5, -2, 4}, {10, -5, -2, 4}};
 // From one object to the next, the same along x.
 inline constexpr int object_distance = 1;
 

@@ -55,6 +55,16 @@ for base in "cloth_64", "cloth_256", "mesh_10k", "ropes_200", "ropes_1000":
 over = measure("ropes_1000_colliders")
 for variant in "scalar", "float32 runs, scalar", "float32 plain, coloured":
     value(over, "tick", variant)
+# What is measured as lying on spheres does: points are in reach of a surface, and none far below it.
+lying = measure("cloth_64_colliders")
+deepest = {"scalar": 0.01, "float32 runs, scalar": 0.01, "float32 plain, coloured": 0.01}
+if any(r["variant"] == "Bullet soft body" for r in lying):
+    deepest["Bullet soft body"] = 4
+for variant, most in deepest.items():
+    points = value(lying, "resting", variant)
+    depth = [r["value"] for r in lying if (r["measured"], r["variant"]) == ("deepest", variant)]
+    if points < 100 or not depth or depth[0] > most:
+        sys.exit(f"{variant} lies on spheres with {points} points, the deepest of them {depth} mm below.")
 for variant in "scalar", "scalar, 2 workers":
     value(over, "threads", variant)
 for measured in "save", "load", "hash", "memcpy":
