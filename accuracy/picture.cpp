@@ -83,12 +83,13 @@ void Picture::line(const std::vector<Place>& places, const Pen& pen) {
         points.append(pixels(place.x)).append(",").append(pixels(place.y));
     }
     body_ += "<polyline" + attribute("points", points);
+    body_ += attribute("stroke", pen.colour);
     if (pen.is_line) {
-        body_ += attribute("stroke", pen.colour) + attribute("stroke-width", pixels(pen.width));
+        body_ += attribute("stroke-width", pixels(pen.width));
         body_ += pen.dashes.empty() ? "" : attribute("stroke-dasharray", pen.dashes);
     } else {
         // Some programs draw no marks of a line without a stroke.
-        body_ += attribute("stroke", pen.colour) + attribute("stroke-opacity", "0");
+        body_ += attribute("stroke-opacity", "0");
     }
     if (pen.mark != Mark::none) {
         std::string mark = "url(#";

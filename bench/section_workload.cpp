@@ -65,8 +65,9 @@ void measure_workload(const Workload& workload, int rounds, bool thrifty, Result
             {workload.name, "tick", m.name, m.nanoseconds * units * 1e-6, "ms", 0, m.least * units * 1e-6});
     }
     // That they rest on the same spheres, and do not fall through.
+    const std::vector<FloatSphere> spheres = spheres_of(workload).front();
     for (std::size_t i = 0; workload.colliders && i < variants.size(); ++i) {
-        const Resting found = resting(variants[i]->points(), spheres_of(workload).front());
+        const Resting found = resting(variants[i]->points(), spheres);
         results.push_back({workload.name, "deepest", ticks[i].name, 1000 * found.deepest, "mm"});
         results.push_back({workload.name, "resting", ticks[i].name, static_cast<double>(found.points),
                            "particles of an object"});

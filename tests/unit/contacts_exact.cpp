@@ -11,6 +11,7 @@
 #include "fixed/formats.h"
 #include "fixed/int128.h"
 #include "kernels/kernels.h"
+#include "wide_kernels.h"
 
 using namespace lks;
 using namespace lks::test::exact;
@@ -57,7 +58,7 @@ TEST_CASE("kernels: heights above planes at the ends of the range are what integ
         for (std::size_t particle = 0; particle < particles; ++particle) {
             below |= std::uint64_t{height(particle) < big(task.level)} << particle;
         }
-        for (const Kernels* kernels : all_kernels()) {
+        for (const Kernels* kernels : test::all_kernels()) {
             different += kernels->near_plane(task, 0, particles) == below ? 0 : 1;
         }
     }
@@ -109,7 +110,7 @@ TEST_CASE(
             near |= std::uint64_t{misses ? 0u : 1u} << particle;
             missed += misses ? 1 : 0;
         }
-        for (const Kernels* kernels : all_kernels()) {
+        for (const Kernels* kernels : test::all_kernels()) {
             different += kernels->near_box(task, 0, particles) == near ? 0 : 1;
         }
     }
@@ -159,7 +160,7 @@ TEST_CASE(
             beyond += may ? 1 : 0;
         }
         task.lengths = lengths.data();
-        for (const Kernels* kernels : all_kernels()) {
+        for (const Kernels* kernels : test::all_kernels()) {
             different += kernels->beyond_tether(task, 0, particles) == expected ? 0 : 1;
         }
     }

@@ -3,12 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "big_integer.h"
 #include "fixed_samples.h"
-#include "kernels/compiled_kernels.h"
-#include "wide_kernels.h"
 
 namespace lks::test::exact {
 
@@ -32,13 +29,6 @@ inline B floored(const B& value, int right) {
 }
 inline B between(const B& value, const B& least, const B& greatest) {
     return value < least ? least : value > greatest ? greatest : value;
-}
-
-// Plain integers too.
-inline std::vector<const Kernels*> all_kernels() {
-    std::vector<const Kernels*> all = wide_kernels();
-    all.push_back(&kernels_scalar);
-    return all;
 }
 
 template <std::size_t n>

@@ -14,6 +14,7 @@
 #include "fixed/projection_reciprocal_sqrt.h"
 #include "fixed_samples.h"
 #include "kernels/kernels.h"
+#include "wide_kernels.h"
 
 using namespace lks;
 using namespace lks::test::exact;
@@ -342,7 +343,7 @@ TEST_CASE("kernels: projections at the ends of every range are what integers wit
     std::uint64_t different = 0;
     std::uint64_t moved = 0;
     const std::uint64_t batches = test::sample_count() / edge_count / (test::long_run() ? 10 : 100);
-    const std::vector<const Kernels*> all = all_kernels();
+    const std::vector<const Kernels*> all = test::all_kernels();
     for (std::uint64_t i = 0; i < batches; ++i) {
         const Kind kind = any_kind(random);
         Edges edges;
@@ -380,7 +381,7 @@ TEST_CASE("kernels: predictions at the ends of every range are what integers wit
     const std::int64_t limits[] = {1, 1 << 20, substep_motion_limit - 1, substep_motion_limit};
     const std::uint32_t shares[] = {0, 1, unit_one / 2, unit_one - 1, unit_one};
     std::uint64_t different = 0;
-    for (const Kernels* kernels : all_kernels()) {
+    for (const Kernels* kernels : test::all_kernels()) {
         for (const std::int64_t limit : limits) {
             const std::int64_t motions[] = {-INT64_MAX - 1, -limit - 1, -limit,    1 - limit, -1, 0, 1,
                                             limit - 1,      limit,      limit + 1, INT64_MAX};

@@ -20,8 +20,7 @@ TEST_CASE("kernels: every instruction set hashes as XXH3 does") {
         byte = static_cast<unsigned char>(random.bits());
     }
     const int texts = test::long_run() ? 30'000 : 3000; // of 600 bytes on the average
-    std::vector<const Kernels*> all = test::wide_kernels();
-    all.push_back(&kernels_scalar);
+    const std::vector<const Kernels*> all = test::all_kernels();
     for (const Kernels* kernels : all) {
         INFO(std::string(simd_name(kernels->level)));
         std::uint64_t different = 0;

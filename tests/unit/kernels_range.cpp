@@ -27,16 +27,10 @@ std::vector<std::int64_t> any_values(test::Random& random, std::size_t count) {
     return values;
 }
 
-std::vector<const Kernels*> all_kernels() {
-    std::vector<const Kernels*> all = test::wide_kernels();
-    all.push_back(&kernels_scalar);
-    return all;
-}
-
 } // namespace
 
 TEST_CASE("kernels: every instruction set finds the least and the greatest of any numbers") {
-    const std::vector<const Kernels*> all = all_kernels();
+    const std::vector<const Kernels*> all = test::all_kernels();
     test::Random random(31);
     const std::uint64_t problems = test::sample_count() / 64; // of 64 numbers on the average
     std::uint64_t different = 0;
@@ -58,7 +52,7 @@ TEST_CASE("kernels: every instruction set finds the least and the greatest of an
 }
 
 TEST_CASE("kernels: every instruction set finds the greatest gap of any pairs") {
-    const std::vector<const Kernels*> all = all_kernels();
+    const std::vector<const Kernels*> all = test::all_kernels();
     test::Random random(32);
     const std::uint64_t problems = test::sample_count() / 64; // of 64 pairs on the average
     std::uint64_t different = 0;

@@ -56,8 +56,7 @@ struct Problem {
 } // namespace
 
 TEST_CASE("kernels: every instruction set finds the particles that may be beyond their tether") {
-    std::vector<const Kernels*> all = test::wide_kernels();
-    all.push_back(&kernels_scalar);
+    const std::vector<const Kernels*> all = test::all_kernels();
     const std::uint64_t problems = test::sample_count() / 32; // of 32 particles on the average
     test::Random random(4);
     std::uint64_t different = 0, left_out = 0, beyond = 0, asked = 0;

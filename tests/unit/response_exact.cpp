@@ -16,6 +16,7 @@
 #include "exact_kernels.h"
 #include "fixed/formats.h"
 #include "rigid_samples.h"
+#include "wide_kernels.h"
 
 using namespace lks;
 using namespace lks::test::exact;
@@ -333,7 +334,7 @@ constexpr lks_shape_kind kinds[] = {LKS_SHAPE_PLANE, LKS_SHAPE_SPHERE, LKS_SHAPE
 
 TEST_CASE("kernels: contacts at the ends of every range are what integers without limits give") {
     const std::uint64_t frames = test::sample_count() / together / (test::long_run() ? 10 : 100);
-    const std::vector<const Kernels*> all = all_kernels();
+    const std::vector<const Kernels*> all = test::all_kernels();
     for (const lks_shape_kind kind : kinds) {
         INFO("shape ", static_cast<int>(kind));
         test::Random random(90 + kind);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kernels/compiled_kernels.h"
 #include "kernels/kernels.h"
 
 namespace lks::test {
@@ -16,6 +17,13 @@ inline std::vector<const Kernels*> wide_kernels() {
         }
     }
     return found;
+}
+
+// Plain integers too.
+inline std::vector<const Kernels*> all_kernels() {
+    std::vector<const Kernels*> all = wide_kernels();
+    all.push_back(&kernels_scalar);
+    return all;
 }
 
 } // namespace lks::test

@@ -54,9 +54,7 @@ public:
     explicit DistanceGroups(const DistanceTask& task)
         : task_(task), narrow_(task.parameters.difference_shift),
           rounded_gain_shift_(task.parameters.gain_shift), half_gain_(task.parameters.gain_shift),
-          product_shift_(
-              task.parameters.product_shift,
-              task.parameters.product_shift > 0 ? std::int64_t{1} << (task.parameters.product_shift - 1) : 0),
+          product_shift_(task.parameters.product_shift, rounding_of(task.parameters.product_shift)),
           octave_(task.parameters.rest_exponent),
           ratio_shift_(L::set(32 + task.parameters.rest_exponent)), axes_{task.arrays.x, task.arrays.y,
                                                                           task.arrays.z},

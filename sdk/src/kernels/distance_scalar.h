@@ -26,6 +26,11 @@ inline std::int64_t shift_right_rounded_any(std::int64_t value, int shift) {
     return (value >> shift) + ((value >> (shift - 1)) & 1);
 }
 
+// What makes a shift to the right round to the nearest; nothing where there is none.
+constexpr std::int64_t rounding_of(int shift) {
+    return shift > 0 ? std::int64_t{1} << (shift - 1) : 0;
+}
+
 struct Difference {
     std::int64_t x, y, z;
 };
@@ -123,10 +128,9 @@ public:
     explicit Projection(const DistanceTask& task)
         : rest_mantissas_(task.rest_mantissas), shares_(task.shares), parts_b_(task.parts_b),
           relaxations_(task.relaxations), parameters_(task.parameters),
-          difference_rounding_(std::int64_t{1} << (task.parameters.difference_shift - 1)),
-          gain_rounding_(std::int64_t{1} << (task.parameters.gain_shift - 1)),
-          product_rounding_(
-              task.parameters.product_shift > 0 ? std::int64_t{1} << (task.parameters.product_shift - 1) : 0),
+          difference_rounding_(rounding_of(task.parameters.difference_shift)),
+          gain_rounding_(rounding_of(task.parameters.gain_shift)),
+          product_rounding_(rounding_of(task.parameters.product_shift)),
           damped_rounding_(damped_rounding(task.parameters.damping_share)), arrays_(task.arrays) {}
 
     LKS_FORCE_INLINE void operator()(std::uint32_t constraint, std::ptrdiff_t a, std::ptrdiff_t b) const {
@@ -250,8 +254,7 @@ private:
     }
     // The same for a share of a half, which is that of all that is stiff and moves alike.
     LKS_FORCE_INLINE std::int64_t half_gain(std::int64_t f) const {
-        constexpr int half_bits = unit_fraction_bits - 1;
-        return (f + (gain_rounding_ >> half_bits)) >> (parameters_.gain_shift - half_bits);
+        return (f + (gain_rounding_ >> half_share_bits)) >> (parameters_.gain_shift - half_share_bits);
     }
 
     // Of each end where both move alike, of both together elsewhere.

@@ -65,6 +65,8 @@ constexpr std::ptrdiff_t place_of(std::uint32_t particle) {
 
 // A part in both ends' movements where they move alike; Direction.
 inline constexpr std::uint32_t half_part = std::uint32_t{direction_one} / 2;
+// The share of what is stiff and moves alike is a half: 2^half_share_bits, Unit.
+inline constexpr int half_share_bits = unit_fraction_bits - 1;
 
 // Objects in one task: with fewer than three a group would wait for itself.
 inline constexpr std::uint32_t least_side_by_side = 3;
@@ -84,7 +86,7 @@ struct DistanceTask {
     // By constraint; kernels read up to widest_group - 1 of each behind the last one.
     const std::uint32_t* rest_mantissas;
     // Unit, scaled: of each end where both move alike, and then at most a half; elsewhere of both together.
-    // A half where what is not soft moves alike, which is then not read.
+    // Not read where what is not soft moves alike.
     const std::uint32_t* shares;
     const std::uint32_t* parts_b;     // Direction, 0 .. 1: how much of both ends' movements is b's
     const std::uint32_t* relaxations; // null where needless

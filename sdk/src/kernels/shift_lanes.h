@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "fixed/formats.h"
+#include "kernels/distance_task.h"
 #include "kernels/factors.h"
 
 namespace lks {
@@ -96,16 +97,15 @@ private:
     std::conditional_t<L::has_quick_shift, Whole, InTwo> shift_;
 };
 
-// The same of a half, as a Unit, times each: nothing is multiplied.
+// The same of each times a share of a half: nothing is multiplied.
 template <typename L>
 class HalfGain {
     using R = typename L::Register;
-    using F = FactorsOf<L>;
 
 public:
     explicit HalfGain(int gain_shift)
-        : count_(L::make_shift(gain_shift - half_bits)),
-          rounding_(L::set_32(1 << (gain_shift - half_bits - 1))) {}
+        : count_(L::make_shift(gain_shift - half_share_bits)),
+          rounding_(L::set_32(1 << (gain_shift - half_share_bits - 1))) {}
 
     LKS_FORCE_INLINE Factors<L> operator()(const Factors<L>& f) const {
         if constexpr (L::packs_factors) {
@@ -116,8 +116,6 @@ public:
     }
 
 private:
-    static constexpr int half_bits = unit_fraction_bits - 1;
-
     LKS_FORCE_INLINE R of(R f) const { return L::shift_right_32_signed(L::add_32(f, rounding_), count_); }
 
     typename L::Shift count_;
