@@ -96,7 +96,7 @@ private:
         L::store(task_.x + i, prediction.x);
     }
 
-    const PredictionTask task_; // a copy, so that what is stored can't be thought to change it
+    PredictionTask task_; // a copy, so that what is stored can't be thought to change it
     R acceleration_;
     R kept_;
     R motion_bias_;
