@@ -112,6 +112,26 @@ TEST_CASE("an animated figure becomes a ragdoll at the speed that it had, and ca
     CHECK(world.save() == image);
 }
 
+TEST_CASE("a figure may be added as animated, with all of its joints") {
+    World world(world_def(60, 8));
+    Humanoid humanoid;
+    for (lks_bone& bone : humanoid.bones) {
+        bone.body.kind = LKS_BODY_KINEMATIC;
+    }
+    lks_body_id bodies[LKS_HUMANOID_BONES];
+    REQUIRE(humanoid.add(world, bodies) == LKS_OK);
+    CHECK(lks_world_joint_count(world) == LKS_HUMANOID_BONES - 1);
+    const Vector head = state_of(world, bodies[LKS_HUMANOID_HEAD]).position;
+    world.step(30);
+    CHECK((state_of(world, bodies[LKS_HUMANOID_HEAD]).position - head).length() == 0);
+    // Held by the head, then: all hang on it.
+    REQUIRE(lks_ragdoll_set_kind(world, bodies, LKS_HUMANOID_BONES, LKS_BODY_DYNAMIC) == LKS_OK);
+    REQUIRE(lks_body_set_kind(world, bodies[LKS_HUMANOID_HEAD], LKS_BODY_KINEMATIC) == LKS_OK);
+    world.step(300);
+    CHECK((state_of(world, bodies[LKS_HUMANOID_CHEST]).position - head).length() < 0.6);
+    CHECK((state_of(world, bodies[LKS_HUMANOID_FOOT_LEFT]).position - head).length() < 2);
+}
+
 TEST_CASE("a powered ragdoll takes the pose that it is given, and goes limp without strength") {
     World world(world_def(60, 8));
     Puppet puppet(world, LKS_BODY_KINEMATIC);

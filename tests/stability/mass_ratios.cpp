@@ -72,15 +72,6 @@ void swing_joints(std::uint32_t links, double ratio, std::uint32_t substeps, dou
                    100 * course.gained_share.single);
 }
 
-// What is beyond the limit: told, not asserted.
-void tell_joints(std::uint32_t links, double ratio, std::uint32_t substeps) {
-    Jointed scene(world_def(60, substeps));
-    scene.add_chain(links, ratio);
-    const JointCourse course = run(scene, 300);
-    tell(joints_name(links, ratio, substeps), "joints apart, worst", "mm", 1000 * course.gap.fixed,
-         1000 * course.gap.single);
-}
-
 } // namespace
 
 TEST_CASE("ropes with a heavy end hold it, as well as their solver can") {
@@ -122,18 +113,20 @@ TEST_CASE("a rope of 99 whose masses are 1 : 10^6 at random holds") {
 TEST_CASE("a chain of jointed bodies holds a heavy end") {
     swing_joints(8, ratios[0], 20, 1e-4);
     swing_joints(8, ratios[1], 20, 1e-4);
+    swing_joints(8, ratios[2], 4, 2);
     swing_joints(8, ratios[2], 20, 0.2);
 }
 
 // Its end swings over its anchor, where it goes slack and snaps tight.
-TEST_CASE("three jointed links hold a heavy end, the heavier the more substeps it takes") {
+TEST_CASE("three jointed links hold a heavy end that goes slack, with any number of substeps") {
     swing_joints(3, ratios[0], 20, 1e-4);
     swing_joints(3, ratios[1], 20, 1e-4);
-    swing_joints(3, 1e4, 20, 1e-3);
-    swing_joints(3, 3e4, 100, 0.1);
-    swing_joints(3, 1e5, 400, 1e-3);
-    swing_joints(3, ratios[2], 400, 1e-2);
-    // The limit: half of that is too few, or enough by chance.
-    tell_joints(3, 3e4, 50);
-    tell_joints(3, 1e5, 200);
+    for (const std::uint32_t substeps : {8u, 20u, 50u, 100u}) {
+        swing_joints(3, 1e4, substeps, 1e-4);
+        swing_joints(3, 1e5, substeps, 1e-4);
+    }
+    swing_joints(3, ratios[2], 4, 2);
+    for (const std::uint32_t substeps : {8u, 20u, 50u, 100u, 400u}) {
+        swing_joints(3, ratios[2], substeps, 1);
+    }
 }

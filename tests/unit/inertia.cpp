@@ -1,6 +1,7 @@
 // Masses and inertias of bodies against the formulas in double precision.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "rigid/inertia.h"
@@ -89,6 +90,31 @@ TEST_CASE("two balls on a line turn about their common centre, with the inertia 
     check_close(gyration(p, p.inertia.xx), 0.004, 1e-6);
     check_close(gyration(p, p.inertia.yy), 0.004 + spread, 1e-6);
     CHECK(p.inertia.xy == 0);
+}
+
+TEST_CASE("a heavy ball with a light one far away is a point, which turns as one of some size") {
+    Random random(11);
+    int points = 0;
+    for (int i = 0; i < 20000; ++i) {
+        lks::BodyShape shapes[2];
+        for (lks::BodyShape& shape : shapes) {
+            shape =
+                shape_of(LKS_SHAPE_SPHERE, std::exp(random.between(std::log(0.001), std::log(5.0))), 0, 0);
+            shape.density = fixed(std::exp(random.between(std::log(0.001), std::log(100000.0))));
+        }
+        shapes[1].position = {fixed(random.between(-25, 25)), fixed(random.between(-15, 15)), 0};
+        const lks::MassProperties p = lks::mass_properties(shapes, 2);
+        REQUIRE(p.inverse_shift >= 0);
+        REQUIRE(p.inverse_shift < 32);
+        // Of a 256th of the unit at least, and no inverse of less than what is the same about all axes.
+        const std::int32_t least = std::min({p.inertia.xx, p.inertia.yy, p.inertia.zz});
+        REQUIRE(least > 0);
+        REQUIRE(std::min({p.inverse_inertia.xx, p.inverse_inertia.yy, p.inverse_inertia.zz}) > 0);
+        const double trace = std::ldexp(double(p.inertia.xx) + p.inertia.yy + p.inertia.zz, -30);
+        REQUIRE(trace >= std::ldexp(2.9, -16));
+        points += trace < std::ldexp(4, -16) ? 1 : 0;
+    }
+    CHECK(points > 1000);
 }
 
 TEST_CASE("the inverse of a tilted body's inertia undoes it") {

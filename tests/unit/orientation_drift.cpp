@@ -89,6 +89,39 @@ TEST_CASE("free bodies that spin for an hour, up to the limit, keep orientations
     CHECK(drift(world, support::sanitised ? 7200 : 216000) <= most);
 }
 
+TEST_CASE("figures that are held and led keep orientations of length one, and their worlds their images") {
+    for (const std::uint32_t substeps : {1u, 4u, 8u}) {
+        World world(world_def(60, substeps));
+        lks_body_id led[2];
+        lks_transform places[2];
+        const int bones[2] = {LKS_HUMANOID_PELVIS, LKS_HUMANOID_HAND_LEFT};
+        for (int i = 0; i < 2; ++i) {
+            Humanoid human;
+            human.def.transform.position = fixed(4 * i, 1.5, 0);
+            human.def.velocity = fixed(i * 20, 0, 0);
+            lks_body_id bodies[LKS_HUMANOID_BONES];
+            REQUIRE(human.add(world, bodies) == LKS_OK);
+            led[i] = bodies[bones[i]];
+            REQUIRE(lks_body_set_kind(world, led[i], LKS_BODY_KINEMATIC) == LKS_OK);
+            REQUIRE(lks_body_transform(world, led[i], &places[i]) == LKS_OK);
+        }
+        double worst = 0;
+        for (int tick = 0; tick < 300; ++tick) {
+            for (int i = 0; i < 2; ++i) {
+                lks_transform to = places[i];
+                to.position.x += fixed(0.5 * std::sin(0.2 * tick));
+                to.rotation = about(0, 1, 0, 60 * std::sin(0.3 * tick));
+                REQUIRE(lks_body_move_to(world, led[i], to) == LKS_OK);
+            }
+            worst = std::max(worst, drift(world, 1));
+            const Image image = world.save();
+            REQUIRE(lks_world_load(world, image.data(), image.size()) == LKS_OK);
+        }
+        INFO(worst);
+        CHECK(worst <= most);
+    }
+}
+
 TEST_CASE("humanoids that fall on each other keep orientations of length one") {
     World world(world_def(60, 8));
     add_ground(world);

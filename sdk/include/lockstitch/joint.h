@@ -39,7 +39,7 @@ typedef enum lks_joint_kind {
 typedef struct lks_joint_def {
     uint32_t struct_size; /* set by lks_default_joint_def */
     uint32_t kind;        /* an lks_joint_kind */
-    lks_body_id body_a;   /* two different bodies, at least one of them dynamic */
+    lks_body_id body_a;   /* two different bodies; while both are kinematic the joint rests */
     lks_body_id body_b;
     lks_transform frame_a;   /* in a's frame; positions within ±64 m */
     lks_transform frame_b;   /* in b's frame */

@@ -21,13 +21,6 @@ lks_result check_bodies(const lks_world& world, const lks_joint_def& def) {
                                                           << "The joint's two bodies are the same, index "
                                                           << def.body_a.index << ".");
     }
-    if (!world.rigid.bodies[def.body_a.index].is_dynamic() &&
-        !world.rigid.bodies[def.body_b.index].is_dynamic()) {
-        return world.fail(LKS_ERROR_INVALID_ARGUMENT,
-                          Sentence() << "The joint's bodies, indices " << def.body_a.index << " and "
-                                     << def.body_b.index
-                                     << ", are both kinematic: there is nothing that it could move.");
-    }
     return LKS_OK;
 }
 

@@ -103,6 +103,11 @@ lks_joint_def make_joint_def(const lks_ragdoll_def& def, const lks_bone& bone, c
 
 lks_result check_bone(const lks_world& world, const lks_ragdoll_def& def, std::uint32_t index) {
     const lks_bone& bone = def.bones[index];
+    if (bone.body.struct_size != sizeof(lks_body_def)) {
+        return world.fail(LKS_ERROR_STRUCT_SIZE,
+                          Sentence() << "Bone " << index << " has a body whose struct_size is "
+                                     << bone.body.struct_size << "; lks_default_bone sets it.");
+    }
     if (bone.joint_kind > LKS_JOINT_FIXED) {
         return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "Bone " << index << " has the joint kind "
                                                                  << bone.joint_kind

@@ -205,7 +205,16 @@ public:
         return far_off;
     }
 
+    // Where a heavy body hangs on light ones, these turn far in a solve, and along the levers that they had
+    // before it the next one would throw them about.
+    void follow_uneven() {
+        if (range_.is_uneven) {
+            factor();
+        }
+    }
+
     void bring_together() {
+        follow_uneven();
         solve([](const Joint& joint, const Body& a, const Body& b) { return joint_offset(joint, a, b); },
               [](const Joint&, const Vec3&) {});
     }
@@ -317,10 +326,11 @@ void add_tree_push(Joint& joint, const Vec3& push) {
 }
 
 void solve_articulation(RigidScene& scene, const ArticulatedTree& tree) {
-    Tree(scene, tree)
-        .solve([](const Joint& joint, const Body& a,
-                  const Body& b) { return joint_offset(joint, a, b) - joint.start; },
-               add_tree_push);
+    Tree all(scene, tree);
+    all.follow_uneven();
+    all.solve([](const Joint& joint, const Body& a,
+                 const Body& b) { return joint_offset(joint, a, b) - joint.start; },
+              add_tree_push);
 }
 
 void stiffen_further(RigidScene& scene, const ArticulatedTree& tree) {
@@ -339,6 +349,7 @@ void undo_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     Tree all(scene, tree);
     if (tree.is_held && undo_held_tree(scene, tree)) {
         all.bring_together();
+        all.make_units();
         return;
     }
     const bool far_off = all.undo_errors();

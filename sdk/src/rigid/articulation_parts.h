@@ -60,7 +60,8 @@ struct ArticulatedTree {
     std::uint32_t body_end;
     std::uint32_t first_joint;
     std::uint32_t joint_end;
-    bool is_held; // by a joint to what does not move
+    bool is_held;   // by a joint to what does not move
+    bool is_uneven; // one of its bodies has a thousand times the mass of another, and more
 };
 
 } // namespace lks

@@ -13,6 +13,9 @@ using fixed::Vec3;
 constexpr std::int32_t greatest_inverse_shift = 14;
 constexpr std::int64_t farthest_lever = 8;
 
+// Of masses in a tree (ArticulatedTree::is_uneven). Those of ragdolls are far below it.
+constexpr std::int64_t uneven_ratio = 1000;
+
 // 32 fraction bits.
 std::int64_t share_of(const InverseMass& part, const InverseMass& whole) {
     if (part.mantissa == 0) {
@@ -133,15 +136,18 @@ private:
             drop_from(begin, begin_joints);
             return;
         }
+        bool uneven = false;
         for (std::size_t i = begin; i < scene_.tree_bodies.size(); ++i) {
             const std::uint32_t body = scene_.tree_bodies[i];
-            scene_.articulated[body].share =
+            const std::int64_t share =
                 share_of(scene_.bodies[body].inverse_mass, scene_.bodies[lightest].inverse_mass);
+            scene_.articulated[body].share = share;
+            uneven = uneven || share * uneven_ratio <= std::int64_t{1} << 32;
         }
         const bool held = mark_held(begin_joints);
         scene_.trees.push_reserved({begin, static_cast<std::uint32_t>(scene_.tree_bodies.size()),
-                                    begin_joints, static_cast<std::uint32_t>(scene_.tree_joints.size()),
-                                    held});
+                                    begin_joints, static_cast<std::uint32_t>(scene_.tree_joints.size()), held,
+                                    uneven});
         any_held_ = any_held_ || held;
     }
 

@@ -24,6 +24,9 @@ constexpr std::int64_t greatest_turn = std::int64_t{1} << (world_fraction_bits -
 // What a limit may be exceeded by for that it need not push.
 constexpr std::int64_t nearly_nothing = (std::int64_t{1} << world_fraction_bits) / 1000000;
 
+// Where masses are uneven, what turns a body by more about an axis, an eighth of a radian, is left to rows.
+constexpr std::int64_t greatest_uneven_half_turn = std::int64_t{1} << (half_turn_fraction_bits - 4);
+
 // What a push does: a force, and a torque.
 struct Wrench {
     Vec3 force;
@@ -131,7 +134,8 @@ public:
         return far;
     }
 
-    void solve() {
+    // False: masses are uneven and somebody would turn far, and nothing was done.
+    bool solve() {
         constexpr int most_passes = 24;
         Exchange exchange;
         for (int pass = 0; pass < most_passes; ++pass) {
@@ -143,10 +147,25 @@ public:
             }
             turn_round(exchange.is_whole(wrong) ? wrong : 1);
         }
+        if (range_.is_uneven && turns_far()) {
+            return false;
+        }
         push();
+        return true;
     }
 
 private:
+    bool turns_far() {
+        bool far = false;
+        for_each_body([&](const Body& body, const ArticulatedBody& part) {
+            const Vec3 turn = move_of(body, part).half_turn;
+            for (const std::int64_t c : {turn.x, turn.y, turn.z}) {
+                far = far || c > greatest_uneven_half_turn || c < -greatest_uneven_half_turn;
+            }
+        });
+        return far;
+    }
+
     // use(part, joint, held), from the root on.
     template <typename Use>
     void for_each_held(const Use& use) {
@@ -443,19 +462,15 @@ void carry_torque(RigidScene& scene, const Joint& joint, const Vec3& push) {
 bool solve_held_tree(RigidScene& scene, const ArticulatedTree& tree) {
     stiffen_further(scene, tree);
     HeldTree held(scene, tree, true);
-    if (!held.find_rows()) {
-        return false;
-    }
-    held.solve();
-    return true;
+    return held.find_rows() && held.solve();
 }
 
 bool undo_held_tree(RigidScene& scene, const ArticulatedTree& tree) {
     constexpr int most_rounds = 3;
     HeldTree held(scene, tree, false);
     bool done = false;
-    for (int round = 0; round < most_rounds && held.is_far_turned() && held.find_rows(); ++round) {
-        held.solve();
+    for (int round = 0; round < most_rounds && held.is_far_turned() && held.find_rows() && held.solve();
+         ++round) {
         done = true;
     }
     if (done) {

@@ -122,6 +122,14 @@ std::int64_t determinant(const WideMatrix& m, const WideMatrix& cofactor) {
 // least determinant / that. Nothing turns more easily about one axis than 4096 times as easily as about all
 // three together: such a rod would only spin numbers.
 void thicken(WideMatrix& m) {
+    // A heavy ball with a light one far away is a point in the unit that reaches them both. It turns as one
+    // of a 256th of the unit: less would leave nothing of the determinant.
+    constexpr std::int64_t point = turn_one >> 16;
+    if (m.xx + m.yy + m.zz < 4 * point) {
+        m.xx += point;
+        m.yy += point;
+        m.zz += point;
+    }
     const std::int64_t trace = m.xx + m.yy + m.zz;
     const std::int64_t least = trace >> 12;
     const std::int64_t bound = multiply_turn(square(trace), least) / 4;
@@ -145,7 +153,7 @@ SymmetricMatrix narrowed(const WideMatrix& m) {
 
 void invert(const WideMatrix& m, MassProperties& out) {
     const WideMatrix cofactor = cofactors(m);
-    const std::int64_t whole = std::max<std::int64_t>(determinant(m, cofactor), 1);
+    const std::int64_t whole = std::max<std::int64_t>(determinant(m, cofactor), 2);
     // The greatest entry comes to below one half: 2^(shift + 60) · cofactor / whole < 2^59.
     int shift = 0;
     while ((greatest_entry(cofactor) >> shift) >= whole / 2) {

@@ -26,8 +26,9 @@ std::size_t RigidScene::wide_room(std::size_t count) const {
 }
 
 bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
-    if (body_count == 0) {
-        return true;
+    if (body_count == 0 && attachment_room_ == 0) {
+        collider_room_ = std::max(collider_room_, collider_count);
+        return true; // nothing of it is stepped
     }
     const std::size_t boxes = body_count + collider_count + object_room_;
     const bool done =
@@ -53,6 +54,7 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         object_pairs.reserve(object_pair_capacity(object_room_, body_count)) &&
         object_impulses.reserve(object_pair_capacity(object_room_, body_count));
     body_room_ = done ? std::max(body_room_, body_count) : body_room_;
+    collider_room_ = done ? std::max(collider_room_, collider_count) : collider_room_;
     return done;
 }
 
@@ -67,17 +69,20 @@ bool RigidScene::reserve_joints(std::size_t count) {
 }
 
 bool RigidScene::reserve_attachments(std::size_t count) {
+    const std::size_t before = attachment_room_;
+    attachment_room_ = std::max(attachment_room_, count);
+    // Particles tied to particles are stepped here, too, with no body in the world.
     const bool done = attachment_slots.reserve(count) && attachments.reserve(count) && held.reserve(count) &&
-                      reserve_figures(body_room_, joint_room_, count);
-    attachment_room_ = done ? std::max(attachment_room_, count) : attachment_room_;
+                      reserve_figures(body_room_, joint_room_, count) && reserve(body_room_, collider_room_);
+    attachment_room_ = done ? attachment_room_ : before;
     return done;
 }
 
 bool RigidScene::reserve_objects(std::size_t count) {
     const std::size_t before = object_room_;
     object_room_ = std::max(object_room_, count);
-    const bool done = is_coupled.reserve(count) && coupled.reserve(count) &&
-                      reserve(body_room_, collider_bodies.capacity());
+    const bool done =
+        is_coupled.reserve(count) && coupled.reserve(count) && reserve(body_room_, collider_room_);
     object_room_ = done ? object_room_ : before;
     return done;
 }

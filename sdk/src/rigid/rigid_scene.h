@@ -164,6 +164,7 @@ private:
 
     TreeKernels tree_kernels_;
     std::size_t body_room_ = 0;
+    std::size_t collider_room_ = 0;
     std::size_t joint_room_ = 0;
     std::size_t attachment_room_ = 0;
     std::size_t object_room_ = 0;

@@ -500,6 +500,14 @@ void RigidSubstep::collide_objects(std::uint32_t substep) {
     }
 }
 
+// Where light bones may have turned further than a substep follows.
+bool RigidSubstep::may_gain(const FigureRange& figure) const {
+    bool uneven = false;
+    for_each_part(scene_, figure, Part::tree,
+                  [&](std::uint32_t i) { uneven = uneven || scene_.trees[i].is_uneven; });
+    return uneven || figure.relieved;
+}
+
 void RigidSubstep::finish() {
     run_each(team_, scene_.bodies.size(), bodies_a_block, [&](std::uint32_t i, std::uint32_t worker) {
         if (scene_.bodies[i].is_awake()) {
@@ -508,7 +516,7 @@ void RigidSubstep::finish() {
         }
     });
     in_figures([this](const FigureRange& figure) {
-        if (figure.is_held && figure.relieved) {
+        if (figure.is_held && may_gain(figure)) {
             take_out_gain(scene_, figure, rate_);
         }
     });

@@ -53,8 +53,8 @@ const ArticulatedTree* only_tree(const RigidScene& scene, const FigureRange& fig
 
 bool fits_lanes(const RigidScene& scene, const ArticulatedTree& tree) {
     // Where something doesn't move there are fewer bodies.
-    bool fits =
-        body_count(tree) <= greatest_tree && body_count(tree) == tree.joint_end - tree.first_joint + 1;
+    bool fits = !tree.is_uneven && body_count(tree) <= greatest_tree &&
+                body_count(tree) == tree.joint_end - tree.first_joint + 1;
     for (std::uint32_t i = 0; i < body_count(tree) && fits; ++i) {
         fits = fits_lanes(body_of(scene, tree, i));
     }
