@@ -292,7 +292,7 @@ TEST_CASE("bodies, cloth and ropes that touch have the same bits on every instru
 }
 
 TEST_CASE("a crowd whose trees are solved side by side has the bits of plain integers") {
-    // Two sizes; one is held, and another one loses a limb.
+    // Two sizes; one is held, one has a foot of a tonne, and another one loses a limb.
     const auto hashes_of = [](std::uint32_t workers, lks_simd simd) {
         World world(settings(6, workers, simd));
         add_ground(world);
@@ -305,6 +305,9 @@ TEST_CASE("a crowd whose trees are solved side by side has the bits of plain int
             humanoid.def.scale = fixed(i < 11 ? 1 : 0.6);
             if (i == 3) {
                 humanoid.bones[LKS_HUMANOID_HEAD].body.kind = LKS_BODY_KINEMATIC;
+            }
+            if (i == 6) {
+                humanoid.bones[LKS_HUMANOID_FOOT_LEFT].body.mass = fixed(1000);
             }
             REQUIRE(humanoid.add(world, nullptr, i == 8 ? joints : nullptr) == LKS_OK);
         }
