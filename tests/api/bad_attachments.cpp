@@ -114,3 +114,60 @@ TEST_CASE("what hangs on what is torn away, or is in the same place, ends where 
     }
     CHECK(energy_of(world) < 1e9);
 }
+
+TEST_CASE("a vertex is rigidly held at one thing that can't move, not at two") {
+    World world(world_def(60, 4));
+    const Asset rope = Chain().build();
+    const lks_object_id object = world.add(rope, at(0, 0, 0));
+    const lks_object_id other = world.add(rope, at(0, 1, 0));
+    world.pin(other, 0);
+    const lks_body_id left = add_anchor(world, fixed(-1, 0, 0));
+    const lks_body_id right = add_anchor(world, fixed(1, 0, 0));
+    const auto held = [&](lks_body_id body) {
+        lks_attachment_def def = lks_default_attachment_def();
+        def.object = object;
+        def.vertex = 19;
+        def.body = body;
+        return def;
+    };
+    lks_attachment_id id{};
+    const lks_attachment_def first = held(left);
+    REQUIRE(lks_world_add_attachment(world, &first, &id) == LKS_OK);
+    const auto refused = [&](const lks_attachment_def& def) {
+        lks_attachment_id none{};
+        check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "vertex 19",
+                           [&] { return lks_world_add_attachment(world, &def, &none); });
+    };
+    lks_attachment_def to_pinned = held(right);
+    to_pinned.kind = LKS_ATTACHMENT_TO_VERTEX;
+    to_pinned.other_object = other;
+    to_pinned.other_vertex = 0;
+    lks_attachment_def from_pinned = to_pinned;
+    from_pinned.object = other;
+    from_pinned.vertex = 0;
+    from_pinned.other_object = object;
+    from_pinned.other_vertex = 19;
+    for (const lks_attachment_def& def : {held(right), held(left), to_pinned, from_pinned}) {
+        refused(def);
+    }
+    check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "vertex 19",
+                       [&] { return lks_object_pin(world, object, 19); });
+
+    // What gives way contradicts nothing, nor does what can move, nor another vertex.
+    lks_attachment_def soft = held(right);
+    soft.compliance = fixed(0.001);
+    lks_attachment_def breakable = held(right);
+    breakable.break_force = fixed(100);
+    lks_attachment_def to_free = to_pinned;
+    to_free.other_vertex = 5;
+    lks_attachment_def next = held(right);
+    next.vertex = 18;
+    for (const lks_attachment_def& def : {soft, breakable, to_free, next}) {
+        lks_attachment_id more{};
+        CHECK(lks_world_add_attachment(world, &def, &more) == LKS_OK);
+    }
+    world.step(30);
+    REQUIRE(lks_world_remove_attachment(world, id) == LKS_OK);
+    CHECK(lks_object_pin(world, object, 19) == LKS_OK);
+    world.step(30);
+}

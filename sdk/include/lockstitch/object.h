@@ -80,7 +80,8 @@ LKS_API lks_result lks_object_add_velocity(lks_world* world, lks_object_id objec
 /* Pins. A pinned vertex has infinite mass and goes from where it is to its target during each tick, in equal
  * parts a substep. Pinning puts the target at the present place; pinning a pinned vertex changes nothing. A
  * target stays until it is changed. Unpinning leaves the vertex with the velocity it had; a vertex that is
- * not pinned can neither be unpinned nor be given a target. */
+ * not pinned can neither be unpinned nor be given a target, and one that an attachment without compliance or
+ * break force holds at a kinematic body or a pinned vertex can't be pinned. */
 LKS_API lks_result lks_object_pin(lks_world* world, lks_object_id object, uint32_t vertex);
 LKS_API lks_result lks_object_unpin(lks_world* world, lks_object_id object, uint32_t vertex);
 /* Where the vertex is to be at the end of the next tick, in the world, metres. */

@@ -30,6 +30,21 @@ AttachmentDescription describe(const lks_attachment_def& def, const lks_world& w
     return d;
 }
 
+// What it holds at something that can't move is not held so already.
+lks_result check_contradictions(const lks_world& world, const lks_attachment_def& def,
+                                std::uint32_t movable) {
+    if (movable == 3 || def.compliance > 0 || def.break_force > 0) {
+        return LKS_OK;
+    }
+    const bool near = movable == 1;
+    if (!near && def.kind == LKS_ATTACHMENT_TO_BODY) {
+        return LKS_OK; // a body can turn about one point and hang between two
+    }
+    return check_held_nowhere(world, near ? def.object : def.other_object,
+                              near ? def.vertex : def.other_vertex,
+                              "it can't be held at another place, too.");
+}
+
 void wake_side(const AttachmentSides& sides) {
     if (sides.body != nullptr) {
         wake(*sides.body);
@@ -70,6 +85,10 @@ lks_result lks_world_add_attachment(lks_world* world, const lks_attachment_def* 
         return world->fail(LKS_ERROR_INVALID_ARGUMENT,
                            Sentence() << "Neither side of the attachment can move: vertex " << def->vertex
                                       << " is pinned, and so is the other one, or its body is kinematic.");
+    }
+    if (const lks_result result = check_contradictions(*world, *def, made.constants.movable);
+        result != LKS_OK) {
+        return result;
     }
     RigidScene& scene = world->rigid;
     const std::uint32_t index = first_free(scene.attachment_slots);

@@ -1,6 +1,7 @@
 #include "api/attachment_checks.h"
 
 #include "api/body_checks.h"
+#include "rigid/coupling.h"
 
 namespace lks {
 namespace {
@@ -32,7 +33,39 @@ lks_result check_other_side(const lks_world& world, const lks_attachment_def& de
     return LKS_OK;
 }
 
+bool gives_way(const AttachmentDescription& d) {
+    return d.compliance > 0 || d.break_force > 0;
+}
+
+// Bits as of movable_sides: the sides of the attachment that are this particle.
+std::uint32_t sides_that_are(const AttachmentDescription& d, std::uint32_t object, std::uint32_t particle) {
+    const bool near = d.object == object && d.particle == particle;
+    const bool far = d.kind == LKS_ATTACHMENT_TO_VERTEX && d.other == object && d.other_particle == particle;
+    return (near ? 1u : 0u) | (far ? 2u : 0u);
+}
+
 } // namespace
+
+lks_result check_held_nowhere(const lks_world& world, lks_object_id object, std::uint32_t vertex,
+                              const char* purpose) {
+    const RigidScene& scene = world.rigid;
+    const std::uint32_t particle = world.objects[object.index].object->asset().vertex_to_particle[vertex];
+    for (std::size_t i = 0; i < scene.attachments.size(); ++i) {
+        const AttachmentDescription& d = scene.attachments[i].description;
+        if (!scene.attachment_slots[i].used || gives_way(d)) {
+            continue;
+        }
+        const std::uint32_t here = sides_that_are(d, object.index, particle);
+        if (here != 0 && movable_sides(d, sides_of(world, scene.attachments[i])) == here) {
+            return world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                              Sentence()
+                                  << "The attachment with index " << i << " holds vertex " << vertex
+                                  << " of the object with index " << object.index
+                                  << " at what can't move, without compliance or a break_force; " << purpose);
+        }
+    }
+    return LKS_OK;
+}
 
 lks_result check_attachment_ranges(const lks_world& world, lks_fixed compliance, lks_fixed damping,
                                    lks_fixed break_force) {

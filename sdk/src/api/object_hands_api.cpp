@@ -1,6 +1,7 @@
 // lockstitch/object.h: velocities, impulses, pins and factors, the inputs that a game gives while it runs.
 #include <lockstitch/object.h>
 
+#include "api/attachment_checks.h"
 #include "api/checks.h"
 #include "solver/local_frame.h"
 #include "solver/prediction.h"
@@ -159,6 +160,10 @@ lks_result lks_object_pin(lks_world* world, lks_object_id object, uint32_t verte
     Object* found = require_particle(world, object, vertex, particle, result);
     if (found == nullptr || found->find_pin(particle) != nullptr) {
         return result;
+    }
+    if (const lks_result held = check_held_nowhere(*world, object, vertex, "it can't be pinned, too.");
+        held != LKS_OK) {
+        return held;
     }
     if (!found->reserve_pins(found->pins().size() + 1)) {
         return world->fail_out_of_memory("a pin");

@@ -16,12 +16,6 @@ InverseMass other_inverse_mass(const AttachmentDescription& d, const AttachmentS
                                  : particle_inverse_mass(*sides.other, d.other_particle);
 }
 
-std::uint32_t movable(const AttachmentDescription& d, const AttachmentSides& sides) {
-    const bool particle = particle_inverse_mass(sides.object, d.particle).mantissa != 0;
-    const bool other = other_inverse_mass(d, sides).mantissa != 0;
-    return (particle ? 1u : 0u) | (other ? 2u : 0u);
-}
-
 void push_apart(const Attachment& attachment, const AttachmentSides& sides, const Vec3& p) {
     const AttachmentDescription& d = attachment.description;
     const PairShares& shares = attachment.constants.shares;
@@ -38,6 +32,12 @@ void push_apart(const Attachment& attachment, const AttachmentSides& sides, cons
 InverseMass particle_inverse_mass(const Object& object, std::uint32_t particle) {
     return object.find_pin(particle) != nullptr ? InverseMass{0, 0}
                                                 : to_inverse_mass(object.asset().inverse_masses[particle]);
+}
+
+std::uint32_t movable_sides(const AttachmentDescription& d, const AttachmentSides& sides) {
+    const bool particle = particle_inverse_mass(sides.object, d.particle).mantissa != 0;
+    const bool other = other_inverse_mass(d, sides).mantissa != 0;
+    return (particle ? 1u : 0u) | (other ? 2u : 0u);
 }
 
 Vec3 particle_position(const Object& object, std::uint32_t particle) {
@@ -69,7 +69,7 @@ Vec3 attachment_offset(const Attachment& attachment, const AttachmentSides& side
 AttachmentConstants make_attachment_constants(const AttachmentDescription& d, const AttachmentSides& sides,
                                               const StepRate& rate) {
     AttachmentConstants c{};
-    c.movable = movable(d, sides);
+    c.movable = movable_sides(d, sides);
     const InverseMass a = particle_inverse_mass(sides.object, d.particle);
     const InverseMass b = other_inverse_mass(d, sides);
     c.shares = pair_shares(a, b);
@@ -94,7 +94,7 @@ void begin_tick(Attachment& attachment, const AttachmentSides& sides, const Step
     const Vec3& sum = attachment.pushed;
     attachment.expected = {sum.x / n, sum.y / n, sum.z / n};
     attachment.pushed = {0, 0, 0};
-    if (attachment.constants.movable != movable(attachment.description, sides)) {
+    if (attachment.constants.movable != movable_sides(attachment.description, sides)) {
         attachment.constants = make_attachment_constants(attachment.description, sides, rate);
     }
 }

@@ -26,7 +26,7 @@ struct AttachmentDescription {
 
 // What follows from the description and the masses.
 struct AttachmentConstants {
-    std::uint32_t movable; // bits: the particle, the other side
+    std::uint32_t movable; // movable_sides
     PairShares shares;
     Softness softness;
     std::int64_t break_push; // what `pushed` bears; 0: everything
@@ -71,6 +71,8 @@ struct HeldParticle {
 
 // Zero where it is pinned, or infinitely heavy from the start.
 InverseMass particle_inverse_mass(const Object& object, std::uint32_t particle);
+// Which sides can move now: bit 0 the particle, bit 1 the other side.
+std::uint32_t movable_sides(const AttachmentDescription& d, const AttachmentSides& sides);
 AttachmentConstants make_attachment_constants(const AttachmentDescription& description,
                                               const AttachmentSides& sides, const StepRate& rate);
 // The number that the shares are shares of, 1/kg.
