@@ -140,14 +140,14 @@ inline double mass_of(const World& world, lks_body_id body) {
     return metres(mass);
 }
 
-inline double error_of(const World& world, lks_joint_id joint) {
+inline double error_of(const lks_world* world, lks_joint_id joint) {
     lks_fixed error = 0;
     REQUIRE(lks_joint_error(world, joint, &error) == LKS_OK);
     return metres(error);
 }
 
 // Degrees by which a bone's joint is beyond what it allows, of an ellipse by its wider axis.
-inline double degrees_beyond(const World& world, const lks_bone& bone, lks_joint_id joint) {
+inline double degrees_beyond(const lks_world* world, const lks_bone& bone, lks_joint_id joint) {
     lks_fixed swing = 0;
     lks_fixed twist = 0;
     REQUIRE(lks_joint_angles(world, joint, &swing, &twist) == LKS_OK);
