@@ -1,4 +1,4 @@
-// Orientations stay of length one, within 2^-53 (docs/rigid-bodies.md), however long and whatever
+// Orientations stay of length one, within 2^-53 (docs/rigid-solver.md), however long and whatever
 // turns them.
 #include <doctest/doctest.h>
 

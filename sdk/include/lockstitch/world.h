@@ -57,8 +57,27 @@ LKS_API void lks_world_destroy(lks_world* world); /* null is allowed */
 LKS_API const lks_error* lks_world_last_error(const lks_world* world);
 
 /* Exactly one tick, by the calling thread and up to worker_count - 1 others; small worlds wake nobody. Where
- * there are no threads (WebAssembly without them) the caller does it all. Allocates nothing; the work is
- * bounded by substeps × iterations. */
+ * there are no threads (WebAssembly without them) the caller does it all. Allocates nothing.
+ *
+ * What a tick may take at most follows from what is in the world and not from what happens there. Add up
+ *
+ *     A · substeps · particles
+ *     B · substeps · iterations · (constraints + particles · what their object is near)
+ *     C · substeps · (iterations + rounds) · (bodies + joints + attachments + contacts)
+ *     D · (objects + bodies + colliders), once
+ *
+ * with A to D as measured on the machine (`lockstitch bench`, docs/performance.md). All of these numbers are
+ * the game's but for three, which have ends of their own:
+ *   near      colliders and bodies; of objects and bodies at most 64 + 8 · (objects + bodies) pairs
+ *   contacts  64 + 16 · bodies of up to four points, found among 64 + 32 · bodies near pairs; bodies count as
+ *             many as there ever were at once, and what is beyond is left out (lost_contacts)
+ *   rounds    a fixed number, and up to 16 more for figures that go on into what stops them, or that are held
+ *             at a bone: there each may solve their joints up to 24 times, as a rule once or twice
+ * Bodies that sleep cost next to nothing, but all may wake at once: a bound counts them as awake. A rope that
+ * is solved at once counts as a few sweeps, and where it is torn as up to eight times as many.
+ *
+ * Capacities do not bound the search for near pairs: where everything is in one place each body and collider
+ * is compared with each other one. */
 LKS_API lks_result lks_world_step(lks_world* world);
 
 /* Runs the ticks that have become due after elapsed_ns (0 .. 10^14) more nanoseconds. Time is counted in
@@ -91,8 +110,7 @@ typedef struct lks_world_counters {
     uint64_t target_clamps;   /* a pin's target lay outside its object's range */
     uint64_t world_edge_hits; /* an object's origin could not follow it past ±8,388 km */
     uint64_t dropped_ticks;   /* by LKS_EXCESS_TIME_DROP */
-    uint64_t lost_contacts;   /* more pairs of bodies touched than a tick has room for: on the average 32 near
-                                 and 16 touching a body */
+    uint64_t lost_contacts;   /* pairs, near or touching, beyond the room of a tick (lks_world_step) */
     uint64_t lost_events;     /* more than lks_world_record_events has room for */
 } lks_world_counters;
 
