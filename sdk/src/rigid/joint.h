@@ -1,8 +1,8 @@
 // A joint between two bodies: two frames, one in each, that it keeps together (lockstitch/joint.h).
 //
 // The points are brought together by a block solve: K·p = −C with the 3×3 matrix K = Σ wᵢ(1 − r̂ᵢ Ĵᵢ r̂ᵢ) of
-// rigid/pair.h. What turns (a hinge's and a fixed joint's axes, limits, friction) is a row each, about the
-// axis of its own error.
+// rigid/pair.h. A hinge's axes are brought together by a block of 2×2, a fixed joint's of 3×3; limits and
+// friction are a row each, about the axis of their own error.
 //
 // As of contacts, what is constrained is the motion within a substep, beginning with the push of the one
 // before; what is left of the error is undone at its end without giving speed. (Where the whole error is
