@@ -114,7 +114,7 @@ Edge any_edge(test::Random& random, const Kind& kind, bool may_be_unequal) {
     if (random.below(8) == 0) {
         make_almost_a_power_of_two_long(random, kind, edge);
     }
-    edge.multiplier = value();
+    edge.multiplier = random.below(8) != 0 ? value() : random.below(2) == 0 ? INT64_MAX : INT64_MIN;
     edge.rest = random.below(2) == 0 ? UINT32_MAX >> random.below(4) : 0x80000000u >> random.below(4);
     edge.part_b = !may_be_unequal || random.below(2) == 0 ? half_part
                   : random.below(3) == 0 ? static_cast<std::uint32_t>(one_of(random, part_edges))
@@ -177,13 +177,15 @@ void project_exactly(const Kind& kind, Edge& edge) {
                     unit_fraction_bits);
     }
     if (kind.relaxed) {
-        const B length = between(rounded(big(edge.multiplier), scale), big(-INT32_MAX), big(INT32_MAX));
+        const B length = rounded(big(edge.multiplier), scale);
         const B share = rounded(B::from_u64(edge.relaxation) * length, unit_fraction_bits);
         f = between(f - rounded(share * y, 32 - k), -one, one);
     }
     if (kind.records) {
         const B root = between(floored(floored(u << (2 * k), 32) * y, 31), B{}, big(INT32_MAX));
-        edge.multiplier = low(big(edge.multiplier) + floored((f + f) * root, 30 + k - scale));
+        const auto saturated = [](const B& v) { return between(v, -power(63), power(63) - big(1)); };
+        const B sum = big(edge.multiplier) + saturated(floored((f + f) * root, 30 + k - scale));
+        edge.multiplier = low(kind.relaxed ? saturated(sum) : sum);
     }
     const B gain = rounded(B::from_u64(edge.share) * f, p.gain_shift);
     for (int axis = 0; axis < 3; ++axis) {

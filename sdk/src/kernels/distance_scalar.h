@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "fixed/formats.h"
+#include "fixed/int128.h"
 #include "fixed/projection_reciprocal_sqrt.h"
 #include "kernels/distance_task.h"
 #include "kernels/force_inline.h"
@@ -179,8 +180,11 @@ private:
             f = soft_correction(f, constraint, a, b, d, u, y, k, scale);
         }
         if constexpr (multiplier) {
-            arrays_.multipliers[constraint] =
-                wrapping_add(arrays_.multipliers[constraint], length_of(f, u, y, k, scale));
+            std::int64_t& sum = arrays_.multipliers[constraint];
+            const std::int64_t more = length_of(f, u, y, k, scale);
+            // Where it relaxes, a group whose sum could leave its range does not stay in lanes.
+            sum =
+                soft && relaxations_ != nullptr ? fixed::saturating_add(sum, more) : wrapping_add(sum, more);
         }
         apply<far>(constraint, a, b, d, f);
     }
@@ -198,15 +202,30 @@ private:
         }
         if constexpr (multiplier) {
             if (relaxations_ != nullptr) {
-                const std::int64_t length = std::clamp<std::int64_t>(
-                    shift_right_rounded(arrays_.multipliers[constraint], scale), -INT32_MAX, INT32_MAX);
-                f = std::clamp<std::int64_t>(
-                    f - over_length(unit_multiply(relaxations_[constraint], length), y, k), -direction_one,
-                    direction_one);
+                f = std::clamp<std::int64_t>(f - relaxation(constraint, y, k, scale), -direction_one,
+                                             direction_one);
             }
         }
         // Without the relaxation |f| ≤ 1, but for some units of rounding: both shares come to one at most.
         return f;
+    }
+
+    // r·Λ/len in Direction format; beyond ±4 it may be anything that is as far.
+    std::int64_t relaxation(std::uint32_t constraint, std::uint32_t y, int k, int scale) const {
+        const std::int64_t length = shift_right_rounded_any(arrays_.multipliers[constraint], scale);
+        if (length < -INT32_MAX || length > INT32_MAX) [[unlikely]] {
+            return far_relaxation(relaxations_[constraint], length, y, k);
+        }
+        return over_length(unit_multiply(relaxations_[constraint], length), y, k);
+    }
+
+    // Of multipliers many times as long as their edge, which yields by little in a substep: the uppermost
+    // ones of a fine cloth have such in long substeps.
+    LKS_NEVER_INLINE static std::int64_t far_relaxation(std::uint32_t unit, std::int64_t length,
+                                                        std::uint32_t y, int k) {
+        constexpr std::int64_t most = 4 * std::int64_t{direction_one};
+        const std::int64_t share = fixed::multiply_shift(length, unit, unit_fraction_bits);
+        return std::clamp(fixed::multiply_shift(share, y, 32 - k), -most, most);
     }
 
     // In units of 2^(difference_shift + extra), within ±2^30.
@@ -227,14 +246,14 @@ private:
         return {narrow(wide.x), narrow(wide.y), narrow(wide.z)};
     }
 
-    // f·len in Coordinate format, rounded down.
+    // f·len in Coordinate format, rounded down; of edges of 128 m and more it saturates.
     static std::int64_t length_of(std::int64_t f, std::uint64_t u, std::uint32_t y, int k, int scale) {
         const std::uint64_t m = (u << (2 * k)) >> 32; // Q2.30 in [1, 4)
         // √m in Q1.30. Just below m = 4 it may come to 2^31 or one more, for which 32-bit lanes have no room.
         const auto root = static_cast<std::int64_t>(std::min<std::uint64_t>((m * y) >> 31, INT32_MAX));
         const int right = 30 + k - scale;
         const std::int64_t twice = 2 * f * root;
-        return right >= 0 ? twice >> right : shift_either_way(twice, -right);
+        return right >= 0 ? twice >> right : fixed::multiply_shift(twice, std::int64_t{1} << -right, 0);
     }
 
     template <bool far>
