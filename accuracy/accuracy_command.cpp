@@ -60,7 +60,8 @@ void measure_paper(const std::string& part, const AccuracyOptions& options, Pape
         paper.beam = run_beam({1, 5, 10, 20, 100});
     } else if (part == "paper_cloth") {
         paper.cloth_scene = options.quick ? ClothHang{16, 1e-2, 3} : ClothHang{64, 0.3, 3, 0.3};
-        paper.cloth = run_cloth(paper.cloth_scene, {Engine::fixed_point, Engine::pbd}, iterations);
+        paper.cloth =
+            run_cloth(paper.cloth_scene, {Engine::fixed_point, Engine::xpbd, Engine::pbd}, iterations);
     } else {
         paper.balloon = run_balloon({1e-2, 1e-1}, {1e-4, 1e-2, 1e-1}, {10, 40});
     }
