@@ -236,6 +236,38 @@ TEST_CASE("an image whose collider gives back less than nothing or more than all
     }
 }
 
+TEST_CASE("an image whose kinematic body is farther from its target than a tick may move it is refused") {
+    World world(world_def(60, 2));
+    lks_body_def def = lks_default_body_def();
+    def.kind = LKS_BODY_KINEMATIC;
+    const lks_vec3 place = fixed(8000000, 3, 4);
+    add_body(world, ball_shape(0.5), place, def);
+    add_body(world, ball_shape(0.5), fixed(8000000, 6, 4));
+    const Image good = world.save();
+    // The first of these is its position, its target comes later.
+    std::size_t word = lks::image_checked_from;
+    const auto value_at = [&](std::size_t at) {
+        std::uint64_t value = 0;
+        std::memcpy(&value, good.bytes() + at, 8);
+        return value;
+    };
+    while (value_at(word) != static_cast<std::uint64_t>(place.x)) {
+        word += 8;
+    }
+    for (const lks_fixed x : {-place.x, place.x - fixed(101), LKS_FIXED(0)}) {
+        Image bad = good;
+        put_u64(bad, word, static_cast<std::uint64_t>(x));
+        put_right_checksum(bad);
+        check_call_refused(world, LKS_ERROR_CORRUPT_IMAGE, "body 0",
+                           [&] { return lks_world_load(world, bad.data(), bad.size()); });
+    }
+    Image near = good;
+    put_u64(near, word, static_cast<std::uint64_t>(place.x - fixed(99)));
+    put_right_checksum(near);
+    REQUIRE(lks_world_load(world, near.data(), near.size()) == LKS_OK);
+    world.step(2);
+}
+
 TEST_CASE("images cut anywhere are refused behind a right checksum and size") {
     Small small;
     const Image good = small.world.save();

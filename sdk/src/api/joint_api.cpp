@@ -57,7 +57,7 @@ lks_fixed to_degrees(std::int64_t radians) {
 // A checked motor.
 void set_motor(lks_world& world, Joint& joint, const lks_motor& motor) {
     JointDescription& d = joint.description;
-    const fixed::Rotation target = fixed::normalise(to_rotation(motor.target));
+    const fixed::Rotation target = fixed::settle(to_rotation(motor.target));
     if (d.motor_torque == motor.max_torque && d.motor_response == motor.response &&
         joint.motor_target == target) {
         return;

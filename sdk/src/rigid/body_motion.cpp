@@ -134,8 +134,7 @@ void predict_body(Body& body, const BodyDescription& description, const BodyTick
     if (!description.properties.round && !is_slow(body.angular_velocity)) {
         body.angular_velocity = body.angular_velocity + change_to_middle(body, description, rate);
     }
-    speed_clamps += clamp_vector(body.velocity, rate.speed_limit) ? 1u : 0u;
-    speed_clamps += clamp_vector(body.angular_velocity, rate.spin_limit) ? 1u : 0u;
+    limit_speeds(body, rate, speed_clamps);
     const std::int64_t n = rate.substeps_per_second;
     body.position =
         body.position + Vec3{divide_rounded(body.velocity.x, n), divide_rounded(body.velocity.y, n),
@@ -184,6 +183,11 @@ void place_kinematic(Body& body, std::uint32_t substep, std::uint32_t substeps, 
     body.angular_velocity = to_spin(half_turn_between(body.start_orientation, body.orientation), rate);
     clamp_vector(body.velocity, rate.speed_limit);
     clamp_vector(body.angular_velocity, rate.spin_limit);
+}
+
+void limit_speeds(Body& body, const MotionRate& rate, std::uint64_t& speed_clamps) {
+    speed_clamps += clamp_vector(body.velocity, rate.speed_limit) ? 1u : 0u;
+    speed_clamps += clamp_vector(body.angular_velocity, rate.spin_limit) ? 1u : 0u;
 }
 
 void finish_body(Body& body, const BodyDescription& description, const MotionRate& rate,

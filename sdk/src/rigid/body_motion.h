@@ -47,6 +47,9 @@ void place_kinematic(Body& body, std::uint32_t substep, std::uint32_t substeps, 
 void finish_body(Body& body, const BodyDescription& description, const MotionRate& rate,
                  std::uint64_t& speed_clamps);
 
+// Velocity and spin within their limits; what was not is counted.
+void limit_speeds(Body& body, const MotionRate& rate, std::uint64_t& speed_clamps);
+
 // How fast any point within `radius` of the centre of mass may be, World m/s; generous: by the spin alone,
 // and altogether.
 std::int64_t spin_speed(const Body& body, std::int64_t radius);

@@ -56,7 +56,6 @@ void find_figures(RigidScene& scene) {
     };
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         scene.figures[i] = roots.root(i);
-        scene.bodies[i].jointed = false;
         if (scene.body_slots[i].used) {
             add(i, Part::body, i);
         }
@@ -64,7 +63,6 @@ void find_figures(RigidScene& scene) {
     for (std::size_t i = 0; i < scene.joints.size(); ++i) {
         if (scene.joint_slots[i].used) {
             const JointDescription& joint = scene.joints[i].description;
-            scene.bodies[joint.body_a].jointed = scene.bodies[joint.body_b].jointed = true;
             add(scene.bodies[joint.body_a].is_awake() ? joint.body_a : joint.body_b, Part::joint, i);
         }
     }

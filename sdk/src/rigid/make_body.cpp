@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
+#include "fixed/formats.h"
+#include "rigid/body_motion.h"
 
 namespace lks {
 namespace {
@@ -22,7 +24,8 @@ lks_body_shape plain_shape(const lks_body_shape& from) {
     lks_body_shape shape{};
     shape.shape = from.shape;
     shape.transform.position = from.transform.position;
-    const fixed::Rotation q = rotation(from.transform.rotation);
+    const lks_rotation& given = from.transform.rotation;
+    const fixed::Rotation q = fixed::settle({given.x, given.y, given.z, given.w});
     shape.transform.rotation = {q.x, q.y, q.z, q.w};
     if (from.shape != LKS_SHAPE_BOX) {
         shape.radius = from.radius;
@@ -148,6 +151,7 @@ void place_body(Body& body, const BodyDescription& description, const Vec3& posi
     body.orientation = widen(rotation);
     body.follow_orientation();
     body.position = position + fixed::rotate(body.rotation, description.centre);
+    clamp_vector(body.position, world_position_limit);
     body.target_position = body.position;
     body.target_orientation = body.orientation;
     body.rest_position = body.position;

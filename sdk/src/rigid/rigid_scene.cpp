@@ -128,6 +128,19 @@ void RigidScene::follow_joints() {
         }
     }
     std::sort(jointed.begin(), jointed.end());
+    mark_jointed();
+}
+
+void RigidScene::mark_jointed() {
+    for (Body& body : bodies) {
+        body.jointed = false;
+    }
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        if (joint_slots[i].used) {
+            const JointDescription& joint = joints[i].description;
+            bodies[joint.body_a].jointed = bodies[joint.body_b].jointed = true;
+        }
+    }
 }
 
 void forget_attachments(RigidScene& scene, std::uint32_t index, bool of_object) {

@@ -508,6 +508,20 @@ bool RigidSubstep::may_gain(const FigureRange& figure) const {
     return uneven || figure.relieved;
 }
 
+void RigidSubstep::restore_speeds() {
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
+        if (scene_.acts(i)) {
+            Contact& contact = scene_.contacts[i];
+            restore_speed(contact, bodies_of(contact), least_approach_);
+        }
+    }
+    for (Body& body : scene_.bodies) {
+        if (body.is_awake()) {
+            limit_speeds(body, rate_, world_.counters.speed_clamps);
+        }
+    }
+}
+
 void RigidSubstep::finish() {
     run_each(team_, scene_.bodies.size(), bodies_a_block, [&](std::uint32_t i, std::uint32_t worker) {
         if (scene_.bodies[i].is_awake()) {
@@ -530,12 +544,7 @@ void RigidSubstep::finish() {
         });
     }
     if (any_restitution_) {
-        for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
-            if (scene_.acts(i)) {
-                Contact& contact = scene_.contacts[i];
-                restore_speed(contact, bodies_of(contact), least_approach_);
-            }
-        }
+        restore_speeds();
     }
     const auto undo = [this](std::uint32_t i) {
         if (scene_.acts(i)) {

@@ -65,6 +65,7 @@ private:
     void mark_exceeded_limits();
     bool find_strained();
     bool may_gain(const FigureRange& figure) const;
+    void restore_speeds();
     bool is_strained(const FigureRange& figure) const;
     bool are_strained(const Contact& shared) const;
     void relieve_strained();

@@ -1,6 +1,8 @@
 #include "rigid/rigid_tick.h"
 
+#include "fixed/formats.h"
 #include "rigid/articulation.h"
+#include "rigid/body_motion.h"
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"
 #include "rigid/figure_overlaps.h"
@@ -132,7 +134,9 @@ private:
             if (!body.is_dynamic()) {
                 body.target_orientation = body.orientation;
             } else if (body.is_awake()) {
-                body.follow_orientation(); // what undid errors has left it behind
+                // What undid errors has left this behind.
+                clamp_vector(body.position, world_position_limit);
+                body.follow_orientation();
             }
         }
         fall_asleep(world_);

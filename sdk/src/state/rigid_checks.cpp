@@ -92,10 +92,17 @@ bool RigidChecks::joined(std::uint32_t a, std::uint32_t b, const Array<Loaded>& 
            bodies[b] != Loaded::nothing;
 }
 
-bool RigidChecks::body(const unsigned char* at) const {
+bool RigidChecks::moves_within_reach(const unsigned char* at) const {
+    Body body{};
+    read_record<BodyState>(at, body);
+    return check_body_motion(world_, body, body.target_position, narrow(body.target_orientation)) == LKS_OK;
+}
+
+bool RigidChecks::body(const unsigned char* at, std::uint32_t kind) const {
     return body_ranges_.hold(at) && is_unit(at + offsetof(BodyState, orientation)) &&
            is_unit(at + offsetof(BodyState, target_orientation)) &&
-           is_unit(at + offsetof(BodyState, rest_orientation));
+           is_unit(at + offsetof(BodyState, rest_orientation)) &&
+           (kind != LKS_BODY_KINEMATIC || moves_within_reach(at));
 }
 
 bool RigidChecks::joint(const unsigned char* at, const fixed::Rotation& known_target) const {

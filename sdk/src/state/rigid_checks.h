@@ -16,8 +16,8 @@ public:
     // Two bodies that are there.
     static bool joined(std::uint32_t a, std::uint32_t b, const Array<Loaded>& bodies);
 
-    // A BodyState, a JointState.
-    bool body(const unsigned char* at) const;
+    // A BodyState of a body of this kind, a JointState.
+    bool body(const unsigned char* at, std::uint32_t kind) const;
     bool joint(const unsigned char* at, const fixed::Rotation& known_target) const;
     // Between a body and a later one, both there, or a collider.
     static bool contact(const ContactMemory& memory, const Array<Loaded>& bodies);
@@ -25,6 +25,9 @@ public:
     bool pushes(const unsigned char* at, std::uint32_t count) const;
 
 private:
+    // As lks_body_move_to would have it.
+    bool moves_within_reach(const unsigned char* at) const;
+
     static constexpr std::size_t push_words = sizeof(ContactPush) / 8;
     static constexpr std::size_t target_size = sizeof(fixed::Rotation);
 

@@ -88,7 +88,7 @@ public:
         if (index + prefetched < scene_.definitions.size()) {
             prefetch(&scene_.definitions[index + prefetched], prefetched_size);
         }
-        if (!find_body(in_, body) || !checks.body(body.state)) {
+        if (!find_body(in_, body) || !checks.body(body.state, body.kind)) {
             return false;
         }
         const bool same = has(scene_.body_slots, index) && is_defined_as(body, scene_.definitions[index]);
@@ -323,6 +323,8 @@ void read_rigid(ByteReader& in, const RigidCounts& counts, const StepRate& rate,
     }
     if (others) {
         scene.follow_joints();
+    } else {
+        scene.mark_jointed(); // bodies may be others
     }
     scene.memories.swap(scene.next_memories);
     for (const ContactMemory& memory : scene.memories) {
