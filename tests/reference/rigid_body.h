@@ -57,6 +57,7 @@ struct MovingBody {
     Matrix<Scalar> world_inverse{}; // at the predicted pose
     Vec start_position, predicted_position, uncarried_position;
     Quat start_orientation, predicted_orientation, uncarried_orientation;
+    Vec predicted_velocity, predicted_spin;
     Vec force, torque;
     Vec carried_torque; // of a held figure: what the next solve of its points begins with
     Scalar load = 0;    // (hω)² of its swing under what its joints pull: as heavily as that it turns

@@ -195,36 +195,36 @@ public:
         }
     }
 
-    // Once velocities are known: what all points owe alike at their middle, then each its own.
-    void restore_speed(Body& body_a, Body& body_b, Scalar least_approach) const {
-        if (restitution == 0) {
+    // Once velocities are known: each point that has struck parts as restitution has it, and no point that
+    // pushed pulls. What all owe alike is given at their middle first.
+    void restore_speed(Body& body_a, Body& body_b, Scalar least_approach, Scalar rate) const {
+        const auto has_struck = [&](const Point& point) {
+            return point.push != 0 && point.approach > least_approach;
+        };
+        std::vector<Owed> owed;
+        bool all_struck = true;
+        bool any_struck = false;
+        for (const Point& point : points) {
+            if (restitution == 0 || !point.active) {
+                continue;
+            }
+            const Levers levers = levers_at_prediction(point, body_a, body_b);
+            const bool struck = has_struck(point);
+            const Scalar before = closing(levers, body_a.predicted_velocity, body_a.predicted_spin,
+                                          body_b.predicted_velocity, body_b.predicted_spin);
+            const Scalar parting = struck ? before * restitution : -closing_speed(levers, body_a, body_b);
+            owed.push_back({&point, levers, struck, parting, -point.push * rate, 0});
+            all_struck = all_struck && struck;
+            any_struck = any_struck || struck;
+        }
+        if (!any_struck) {
             return;
         }
-        const auto has_struck = [&](const Point& point) {
-            return point.active && point.push != 0 && point.approach > least_approach;
-        };
-        const auto owed = [&](const Point& point) {
-            return point.approach * restitution +
-                   closing_speed(levers_now(point, body_a, body_b), body_a, body_b);
-        };
-        const auto give = [&](const PushRow<Scalar>& row, Scalar speed) {
-            if (speed > 0) {
-                row.accelerate(row.push_for(speed), body_a, body_b);
-            }
-        };
-        const auto struck_count = std::count_if(points.begin(), points.end(), has_struck);
-        if (struck_count > 1 && struck_count == active_count_) {
-            Scalar sum = 0;
-            for (const Point& point : points) {
-                sum += has_struck(point) ? owed(point) : 0;
-            }
-            give(middle_, sum / static_cast<Scalar>(struck_count));
+        if (all_struck && owed.size() > 1) {
+            give_alike(owed, body_a, body_b);
         }
-        for (const Point& point : points) {
-            if (has_struck(point)) {
-                give(point.along, owed(point));
-            }
-        }
+        constexpr int most_rounds = 16;
+        for (int round = 0; round < most_rounds && give_each(owed, body_a, body_b); ++round) {}
     }
 
     // Overlaps beyond half a millimetre, or a centimetre of jointed bodies: a quarter a substep, at most
@@ -269,6 +269,54 @@ private:
     struct Levers {
         Vec a, b;
     };
+
+    // What restitution wants of a point: how fast it is to part, and the impulse it may be given at least and
+    // has been given.
+    struct Owed {
+        const Point* point;
+        Levers levers;
+        bool struck;
+        Scalar parting, least, given;
+    };
+
+    void give_alike(std::vector<Owed>& owed, Body& body_a, Body& body_b) const {
+        Scalar sum = 0;
+        for (const Owed& one : owed) {
+            sum += one.parting + closing_speed(one.levers, body_a, body_b);
+        }
+        const auto count = static_cast<Scalar>(owed.size());
+        if (sum > 0) {
+            const Scalar impulse = middle_.push_for(sum / count);
+            middle_.accelerate(impulse, body_a, body_b);
+            for (Owed& one : owed) {
+                one.given = impulse / count;
+            }
+        }
+    }
+    // Whether another round is worth it.
+    bool give_each(std::vector<Owed>& owed, Body& body_a, Body& body_b) const {
+        bool more = false;
+        for (Owed& one : owed) {
+            const Scalar speed = one.parting + closing_speed(one.levers, body_a, body_b);
+            const Scalar wanted = std::max(one.given + one.point->along.push_for(speed), one.least);
+            const Scalar impulse = (one.struck ? wanted : std::min(wanted, Scalar(0))) - one.given;
+            if (impulse != 0) {
+                one.point->along.accelerate(impulse, body_a, body_b);
+                one.given += impulse;
+                more = more || std::abs(speed) > Scalar(0x1p-14);
+            }
+        }
+        return more;
+    }
+
+    Levers levers_at_prediction(const Point& point, const Body& body_a, const Body& body_b) const {
+        return {body_a.predicted_orientation.matrix() * point.core_a + normal * radius_a,
+                body_b.predicted_orientation.matrix() * point.core_b - normal * radius_b};
+    }
+    Scalar closing(const Levers& levers, const Vec& velocity_a, const Vec& spin_a, const Vec& velocity_b,
+                   const Vec& spin_b) const {
+        return -normal.dot(velocity_b + cross(spin_b, levers.b) - velocity_a - cross(spin_a, levers.a));
+    }
 
     static constexpr Scalar allowed_overlap = Scalar(0.0005);
 

@@ -169,10 +169,13 @@ private:
         }
         relieve_held();
         for (Body& body : bodies_) {
+            body.predicted_velocity = body.velocity;
+            body.predicted_spin = body.spin;
             motion_.finish(body);
         }
-        parts_.for_each_contact(
-            [this](Contact& contact, Body& a, Body& b) { contact.restore_speed(a, b, least_approach_); });
+        parts_.for_each_contact([this](Contact& contact, Body& a, Body& b) {
+            contact.restore_speed(a, b, least_approach_, rate_);
+        });
         parts_.for_each_joint([](const Joint& joint, Body& a, Body& b) {
             if (!joint.in_tree) {
                 joint.undo_turn(a, b);

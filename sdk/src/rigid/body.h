@@ -57,6 +57,11 @@ struct BodyState {
     std::uint32_t asleep; // 0 or 1
 };
 
+struct Speeds {
+    fixed::Vec3 velocity;
+    fixed::Vec3 spin;
+};
+
 // And what every constraint on it needs.
 struct Body : BodyState {
     // Copied from the description.
@@ -92,6 +97,7 @@ struct Body : BodyState {
     fixed::Vec3 uncarried_position; // before anything that was pushed in the last substep was pushed again
     Quaternion uncarried_orientation;
 
+    Speeds speeds() const { return {velocity, angular_velocity}; }
     bool is_dynamic() const { return inverse_mass.mantissa != 0; }
     bool is_awake() const { return is_dynamic() && asleep == 0; }
     bool is_moving() const {

@@ -59,16 +59,20 @@ std::int64_t greatest_speed(const Body& body, std::int64_t radius);
 fixed::Vec3 to_half_turn(const fixed::Vec3& spin, const MotionRate& rate);
 
 // Of a body's point at a lever from its centre of mass, World m/s; by the spin within a million m/s an axis.
-inline fixed::Vec3 velocity_at(const Body& body, const fixed::Vec3& lever) {
+inline fixed::Vec3 velocity_at(const Speeds& speeds, const fixed::Vec3& lever) {
     // Spins to 22 bits behind the point and levers to 24: far out on a plane they are very long.
     const auto m = [](std::int64_t spin, std::int64_t arm) {
         constexpr std::int64_t most = std::int64_t{1} << (world_fraction_bits + 19);
         return std::clamp(fixed::saturate_to_int64(fixed::multiply_signed(spin >> 18, arm >> 16) >> 6), -most,
                           most);
     };
-    const fixed::Vec3& w = body.angular_velocity;
-    return body.velocity + fixed::Vec3{m(w.y, lever.z) - m(w.z, lever.y), m(w.z, lever.x) - m(w.x, lever.z),
-                                       m(w.x, lever.y) - m(w.y, lever.x)};
+    const fixed::Vec3& w = speeds.spin;
+    return speeds.velocity + fixed::Vec3{m(w.y, lever.z) - m(w.z, lever.y), m(w.z, lever.x) - m(w.x, lever.z),
+                                         m(w.x, lever.y) - m(w.y, lever.x)};
+}
+
+inline fixed::Vec3 velocity_at(const Body& body, const fixed::Vec3& lever) {
+    return velocity_at(body.speeds(), lever);
 }
 
 // Each axis within ±limit; true where one was not.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
+#include "kernels/bounded.h"
 #include "rigid/contact_points.h"
 
 namespace lks {
@@ -49,32 +50,122 @@ void undo(Body& body, const Move& move, std::int32_t share) {
     }
 }
 
-std::int64_t closing_speed(const Contact& contact, const Levers& levers, const Body& a, const Body& b) {
-    return -fixed::dot(contact.normal(), velocity_at(b, levers.b) - velocity_at(a, levers.a));
+std::int64_t closing_speed(const Contact& contact, const Levers& levers, const ContactSpeeds& speeds) {
+    return -fixed::dot(contact.normal(), velocity_at(speeds.b, levers.b) - velocity_at(speeds.a, levers.a));
 }
 
-std::int64_t closing_speed(const Contact& contact, const ContactPoint& point, const ContactBodies& bodies) {
-    const Levers levers = surfaces_of(contact, cores_now(point, bodies.a, bodies.b));
-    return closing_speed(contact, levers, bodies.a, bodies.b);
+std::int64_t closing_speed(const Contact& contact, const Levers& levers, const Body& a, const Body& b) {
+    return closing_speed(contact, levers, {a.speeds(), b.speeds()});
 }
 
 bool has_struck(const ContactPoint& point, std::int64_t least_approach) {
     return point.active && point.push.normal != 0 && point.approach > least_approach;
 }
 
-// What restitution has yet to give at a point; less than nothing where it parts faster.
-std::int64_t owed_speed(const Contact& contact, const ContactPoint& point, const ContactBodies& bodies) {
-    return fixed::multiply_shift(point.approach, contact.restitution, world_fraction_bits) +
-           closing_speed(contact, point, bodies);
-}
-
-void give_speed(Contact& contact, const ContactRows& rows, std::int64_t speed, const ContactBodies& bodies) {
-    if (speed > 0) {
-        const std::int64_t p = divide(speed, rows.inverses[normal_row]);
-        contact.given_speed = fixed::saturating_add(contact.given_speed, p);
-        accelerate(contact, rows, p, bodies);
+// Gives back speed at a contact's points, so that each of them parts as restitution wants it to where it
+// pushes, and pushes nothing where it parts faster: what it pushed may be taken back, no more. So the work of
+// all of them is what of it restitution does not give back.
+class Restoring {
+public:
+    Restoring(Contact& contact, const ContactBodies& bodies, const ContactSpeeds& predicted,
+              std::int64_t least_approach, std::int64_t substeps_per_second)
+        : contact_(contact), bodies_(bodies) {
+        const fixed::Matrix3 turned_a = fixed::to_matrix(narrow(bodies.a.predicted_orientation));
+        const fixed::Matrix3 turned_b = fixed::to_matrix(narrow(bodies.b.predicted_orientation));
+        for (std::uint32_t i = 0; i < contact.count; ++i) {
+            const ContactPoint& point = contact.points[i];
+            if (!point.active) {
+                continue;
+            }
+            const bool struck = has_struck(point, least_approach);
+            struck_count_ += struck ? 1u : 0u;
+            // Where it was when its rows were made: only so does what is given back do as much work as what
+            // was taken.
+            const Levers levers = surfaces_of(
+                contact, {fixed::rotate(turned_a, point.core_a), fixed::rotate(turned_b, point.core_b)});
+            const std::int64_t parting =
+                struck ? fixed::multiply_shift(closing_speed(contact, levers, predicted), contact.restitution,
+                                               world_fraction_bits)
+                       : -closing_speed(contact, levers, now());
+            points_[count_++] = {
+                i, struck, levers, parting, -fixed::multiply_shift(point.push.normal, substeps_per_second, 0),
+                0};
+        }
     }
-}
+
+    bool any_struck() const { return struck_count_ > 0; }
+
+    void run() {
+        // What all points owe alike is given at their middle: one after the other they turn what comes down
+        // flat.
+        if (struck_count_ > 1 && struck_count_ == count_) {
+            give_alike();
+        }
+        constexpr int most_rounds = 16;
+        for (int round = 0; round < most_rounds && give_each(); ++round) {}
+    }
+
+private:
+    struct Point {
+        std::uint32_t index;
+        bool struck;
+        Levers levers;
+        std::int64_t parting; // World m/s: how fast it is to part
+        std::int64_t least;   // what it may be given: less than nothing where it has pushed
+        std::int64_t given;
+    };
+
+    ContactSpeeds now() const { return {bodies_.a.speeds(), bodies_.b.speeds()}; }
+
+    std::int64_t owed(const Point& point) const {
+        return point.parting + closing_speed(contact_, point.levers, now());
+    }
+
+    void give_alike() {
+        std::int64_t sum = 0;
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            sum += owed(points_[i]);
+        }
+        const std::int64_t speed = sum / static_cast<std::int64_t>(count_);
+        if (speed > 0) {
+            const std::int64_t p = divide(speed, contact_.middle.inverses[normal_row]);
+            accelerate(contact_, contact_.middle, p, bodies_);
+            for (std::uint32_t i = 0; i < count_; ++i) {
+                points_[i].given = p / count_;
+            }
+            contact_.given_speed = fixed::saturating_add(contact_.given_speed, p);
+        }
+    }
+
+    // Whether anybody was given anything that is worth another round.
+    bool give_each() {
+        constexpr std::int64_t little = std::int64_t{1} << (world_fraction_bits - 14);
+        constexpr std::int64_t most_given = std::int64_t{1} << 60;
+        bool more = false;
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            Point& point = points_[i];
+            const ContactRows& rows = contact_.points[point.index].rows;
+            const std::int64_t speed = owed(point);
+            const std::int64_t wanted =
+                fixed::saturating_add(point.given, divide(speed, rows.inverses[normal_row]));
+            const std::int64_t most = point.struck ? most_given : 0;
+            const std::int64_t p = std::clamp(wanted, point.least, most) - point.given;
+            if (p != 0) {
+                accelerate(contact_, rows, p, bodies_);
+                point.given += p;
+                contact_.given_speed = fixed::saturating_add(contact_.given_speed, p);
+                more = more || !within(speed, little);
+            }
+        }
+        return more;
+    }
+
+    Contact& contact_;
+    const ContactBodies& bodies_;
+    Point points_[greatest_point_count];
+    std::uint32_t count_ = 0;
+    std::uint32_t struck_count_ = 0;
+};
 
 // What the points of a contact pushed before, to be handed on.
 class OldPushes {
@@ -211,27 +302,14 @@ void add_up_pushes(Contact& contact, const MotionRate& rate) {
     }
 }
 
-void restore_speed(Contact& contact, ContactBodies bodies, std::int64_t least_approach) {
+void restore_speed(Contact& contact, ContactBodies bodies, const ContactSpeeds& predicted,
+                   std::int64_t least_approach, const MotionRate& rate) {
     if (contact.restitution == 0) {
         return;
     }
-    // What all points owe alike is given at their middle: one after the other they turn what comes down flat.
-    std::int64_t sum = 0;
-    std::uint32_t struck_count = 0;
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        if (has_struck(contact.points[i], least_approach)) {
-            sum += owed_speed(contact, contact.points[i], bodies);
-            ++struck_count;
-        }
-    }
-    if (struck_count > 1 && struck_count == contact.active_count) {
-        give_speed(contact, contact.middle, sum / static_cast<std::int64_t>(struck_count), bodies);
-    }
-    for (std::uint32_t i = 0; i < contact.count; ++i) {
-        const ContactPoint& point = contact.points[i];
-        if (has_struck(point, least_approach)) {
-            give_speed(contact, point.rows, owed_speed(contact, point, bodies), bodies);
-        }
+    Restoring restoring(contact, bodies, predicted, least_approach, rate.substeps_per_second);
+    if (restoring.any_struck()) {
+        restoring.run();
     }
 }
 

@@ -129,6 +129,10 @@ struct ContactMoves {
     Move& b;
 };
 
+struct ContactSpeeds {
+    Speeds a, b;
+};
+
 // Whether what is pressed into the other comes out where it went in (collide/manifold.h). Two figures part
 // the shorter way: to undo all of it jams heaps of them.
 inline bool keeps_side(const Body& a, const Body& b) {
@@ -163,8 +167,9 @@ void project(Contact& contact, ContactMoves moves, bool back);
 bool closes(const Contact& contact, const ContactBodies& bodies, std::int64_t distance);
 // For events: what it pushed in this substep.
 void add_up_pushes(Contact& contact, const MotionRate& rate);
-// Once velocities are known.
-void restore_speed(Contact& contact, ContactBodies bodies, std::int64_t least_approach);
+// Once velocities are known; `predicted`: before anything was pushed.
+void restore_speed(Contact& contact, ContactBodies bodies, const ContactSpeeds& predicted,
+                   std::int64_t least_approach, const MotionRate& rate);
 // For events, World m/s: what it has yet to give where it pushes and they still close, as if nobody else did.
 std::int64_t speed_to_come(const Contact& contact, const ContactBodies& bodies);
 // Last: overlaps that do not part by a motion, by moving bodies without giving them speed.

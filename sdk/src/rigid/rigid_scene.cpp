@@ -15,10 +15,11 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       tree_joints(allocator), articulated(allocator), trees(allocator), held_joints(allocator),
       figures(allocator), figure_parts(allocator), figure_ranges(allocator), figure_bundles(allocator),
       wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator), figure_shares(allocator),
-      substep_motions(allocator), figure_masses(allocator), figures_changed(allocator),
-      strained_figures(allocator), figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator),
-      is_coupled(allocator), coupled(allocator), object_pairs(allocator), object_impulses(allocator),
-      held(allocator), loaded_bodies(allocator), loaded_joints(allocator), tree_kernels_(tree_kernels) {}
+      substep_motions(allocator), predicted_speeds(allocator), figure_masses(allocator),
+      figures_changed(allocator), strained_figures(allocator), figure_shifts(allocator),
+      figure_pairs(allocator), island_rests(allocator), is_coupled(allocator), coupled(allocator),
+      object_pairs(allocator), object_impulses(allocator), held(allocator), loaded_bodies(allocator),
+      loaded_joints(allocator), tree_kernels_(tree_kernels) {}
 
 // A bundle takes the same for any number of trees.
 std::size_t RigidScene::wide_room(std::size_t count) const {
@@ -47,10 +48,11 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         tree_bodies.reserve(body_count) && articulated.reserve(body_count) &&
         reserve_figures(body_count, joint_room_, attachment_room_) && island_rests.reserve(body_count) &&
         shared_contacts.reserve(contact_capacity(body_count)) && figure_shares.reserve(body_count) &&
-        substep_motions.reserve(body_count) && figure_masses.reserve(body_count) &&
-        figures_changed.reserve(body_count) && strained_figures.reserve(body_count) &&
-        figure_shifts.reserve(body_count + 1) && figure_pairs.reserve(contact_capacity(body_count)) &&
-        figure_bundles.reserve(body_count) && wide_bodies.reserve(wide_room(body_count)) &&
+        substep_motions.reserve(body_count) && predicted_speeds.reserve(body_count) &&
+        figure_masses.reserve(body_count) && figures_changed.reserve(body_count) &&
+        strained_figures.reserve(body_count) && figure_shifts.reserve(body_count + 1) &&
+        figure_pairs.reserve(contact_capacity(body_count)) && figure_bundles.reserve(body_count) &&
+        wide_bodies.reserve(wide_room(body_count)) &&
         object_pairs.reserve(object_pair_capacity(object_room_, body_count)) &&
         object_impulses.reserve(object_pair_capacity(object_room_, body_count));
     body_room_ = done ? std::max(body_room_, body_count) : body_room_;

@@ -114,8 +114,9 @@ struct RigidScene {
     Array<WideTreeJoint> wide_joints;
     Array<std::uint32_t> shared_contacts; // of two figures, ascending
     Array<std::int32_t>
-        figure_shares;             // by awake figure: what is added to its pushes (rigid/carried_pushes.h)
-    Array<Motion> substep_motions; // by body, while it is awake (rigid/carried_pushes.h)
+        figure_shares;              // by awake figure: what is added to its pushes (rigid/carried_pushes.h)
+    Array<Motion> substep_motions;  // by body, while it is awake (rigid/carried_pushes.h)
+    Array<Speeds> predicted_speeds; // by body, in a substep's end, where anything gives back speed
     Array<std::int32_t> figure_masses;    // by body: its mass in its figure's heaviest one's
     Array<std::uint8_t> figures_changed;  // by the least body: while shares are added
     Array<std::uint8_t> strained_figures; // by the least body; empty where none is

@@ -512,7 +512,7 @@ void RigidSubstep::restore_speeds() {
     for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
         if (scene_.acts(i)) {
             Contact& contact = scene_.contacts[i];
-            restore_speed(contact, bodies_of(contact), least_approach_);
+            restore_speed(contact, bodies_of(contact), predicted_speeds(contact), least_approach_, rate_);
         }
     }
     for (Body& body : scene_.bodies) {
@@ -522,7 +522,22 @@ void RigidSubstep::restore_speeds() {
     }
 }
 
+// The other one's, too: what is no body, or does not move by pushes, has the same before and behind them.
+ContactSpeeds RigidSubstep::predicted_speeds(const Contact& contact) {
+    const ContactBodies bodies = bodies_of(contact);
+    const auto of = [this](const Body& body, std::uint32_t index) {
+        return body.is_awake() ? scene_.predicted_speeds[index] : body.speeds();
+    };
+    return {of(bodies.a, contact.key.body_a), of(bodies.b, contact.key.other)};
+}
+
 void RigidSubstep::finish() {
+    if (any_restitution_) {
+        scene_.predicted_speeds.clear();
+        for (const Body& body : scene_.bodies) {
+            scene_.predicted_speeds.push_reserved(body.speeds());
+        }
+    }
     run_each(team_, scene_.bodies.size(), bodies_a_block, [&](std::uint32_t i, std::uint32_t worker) {
         if (scene_.bodies[i].is_awake()) {
             finish_body(scene_.bodies[i], scene_.descriptions[i], rate_,

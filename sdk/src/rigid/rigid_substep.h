@@ -65,6 +65,7 @@ private:
     void mark_exceeded_limits();
     bool find_strained();
     bool may_gain(const FigureRange& figure) const;
+    ContactSpeeds predicted_speeds(const Contact& contact);
     void restore_speeds();
     bool is_strained(const FigureRange& figure) const;
     bool are_strained(const Contact& shared) const;
