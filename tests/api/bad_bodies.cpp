@@ -201,14 +201,14 @@ TEST_CASE("ragdolls with trees that are none are refused whole") {
     check([](Humanoid& h) { h.bones[0].parent = 1; }, "root");
     check([](Humanoid& h) { h.bones[4].parent = LKS_NO_PARENT; }, "bone 4");
     check([](Humanoid& h) { h.bones[4].joint_kind = LKS_JOINT_DISTANCE; }, "kind 3");
-    check([](Humanoid& h) { h.bones[14].twist_min = fixed(90); }, "twist_min 90");
+    check([](Humanoid& h) { h.bones[14].twist_min = fixed(90); }, "bone 14: ");
     check([](Humanoid& h) { h.bones[5].swing_limit_z = fixed(181); }, "swing_limit_z 181");
     check([](Humanoid& h) { h.bones[5].compliance = fixed(-1); }, "compliance -1");
     check([](Humanoid& h) { h.bones[5].damping = fixed(-2); }, "damping -2");
     check([](Humanoid& h) { h.bones[5].angular_compliance = fixed(1001); }, "angular_compliance 1001");
     check([](Humanoid& h) { h.bones[5].angular_damping = fixed(-3); }, "angular_damping -3");
     check([](Humanoid& h) { h.bones[5].break_force = fixed(-4); }, "break_force -4");
-    check([](Humanoid& h) { h.bones[5].break_force = fixed(8000001); }, "break_force 8000001");
+    check([](Humanoid& h) { h.bones[5].break_force = fixed(8000001); }, "bone 5: the break_force 8000001");
     check([](Humanoid& h) { h.bones[5].break_torque = fixed(-5); }, "break_torque -5");
     check([](Humanoid& h) { h.bones[5].motor_torque = fixed(-6); }, "motor_torque -6");
     check(
@@ -218,7 +218,7 @@ TEST_CASE("ragdolls with trees that are none are refused whole") {
         },
         "64");
     check([](Humanoid& h) { h.shapes[7].radius = 0; }, "radius 0");
-    check([](Humanoid& h) { h.bones[7].body.shapes = nullptr; }, "null", LKS_ERROR_NULL_ARGUMENT);
+    check([](Humanoid& h) { h.bones[7].body.shapes = nullptr; }, "bone 7: ", LKS_ERROR_NULL_ARGUMENT);
     check([](Humanoid& h) { h.def.bone_count = 0; }, "0 bones");
     check([](Humanoid& h) { h.def.bone_count = 300; }, "300 bones");
     check([](Humanoid& h) { h.def.scale = fixed(0.01); }, "0.01");

@@ -112,7 +112,7 @@ lks_result check_motion(const lks_world& world, const ColliderState& collider, c
                         const fixed::Rotation& rotation) {
     if (!is_near(collider.position, position)) {
         return world.fail(LKS_ERROR_INVALID_ARGUMENT,
-                          out_of_range("collider's motion in one tick",
+                          out_of_range("motion in one tick",
                                        {saturating_subtract(position.x, collider.position.x),
                                         saturating_subtract(position.y, collider.position.y),
                                         saturating_subtract(position.z, collider.position.z)},
@@ -122,7 +122,7 @@ lks_result check_motion(const lks_world& world, const ColliderState& collider, c
         return world.fail(LKS_ERROR_INVALID_ARGUMENT,
                           Sentence() << "The rotation (" << rotation.x << ", " << rotation.y << ", "
                                      << rotation.z << ", " << rotation.w
-                                     << ") / 2^30 turns the collider by more than 90 degrees in one tick.");
+                                     << ") / 2^30 turns it by more than 90 degrees in one tick.");
     }
     return LKS_OK;
 }

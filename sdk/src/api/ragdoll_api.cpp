@@ -119,6 +119,7 @@ lks_result check_bone(const lks_world& world, const lks_ragdoll_def& def, std::u
                           Sentence() << "Bone " << index
                                      << " or its joint lies more than 30 m from the ragdoll.");
     }
+    const WithinBone within_bone(world, index);
     for (const lks_rotation& rotation : {bone.joint_frame.rotation, bone.body.transform.rotation}) {
         if (const lks_result result = check_rotation(world, rotation); result != LKS_OK) {
             return result;
@@ -145,6 +146,7 @@ lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
         if (i == 0) {
             continue;
         }
+        const WithinBone within_bone(world, i);
         const lks_joint_def joint = make_joint_def(def, def.bones[i], Placement(def));
         if (const lks_result result = check_joint_ranges(world, joint); result != LKS_OK) {
             return result;

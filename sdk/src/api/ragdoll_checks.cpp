@@ -28,10 +28,10 @@ lks_result check_bone_tree(const lks_world& world, const lks_ragdoll_def& def) {
                                          << (i == 0 ? "; the first bone is the root and has none."
                                                     : "; a parent is an earlier bone."));
         }
-        const Number strengths[] = {
-            {"bone's motor_torque", " N·m", bone.motor_torque, 0, LKS_FIXED(1000000)},
-            {"bone's break_force", " N", bone.break_force, 0, greatest_break_strength},
-            {"bone's break_torque", " N·m", bone.break_torque, 0, greatest_break_strength}};
+        const Number strengths[] = {{"motor_torque", " N·m", bone.motor_torque, 0, LKS_FIXED(1000000)},
+                                    {"break_force", " N", bone.break_force, 0, greatest_break_strength},
+                                    {"break_torque", " N·m", bone.break_torque, 0, greatest_break_strength}};
+        const WithinBone within_bone(world, i);
         if (const lks_result result = check_numbers(world, strengths); result != LKS_OK) {
             return result;
         }

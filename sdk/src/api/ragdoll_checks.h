@@ -7,6 +7,22 @@
 
 namespace lks {
 
+// Of a failure of its body's or its joint's: which bone it is.
+class WithinBone {
+public:
+    WithinBone(const lks_world& world, std::uint32_t index) : world_(world) {
+        name_ << "Bone " << index << ": ";
+        world_.failing_within = &name_;
+    }
+    ~WithinBone() { world_.failing_within = nullptr; }
+    WithinBone(const WithinBone&) = delete;
+    WithinBone& operator=(const WithinBone&) = delete;
+
+private:
+    const lks_world& world_;
+    Sentence name_;
+};
+
 // LKS_OK, or reported: its size, how many bones there are, its scale, each bone's parent, and what its joint
 // bears and its motor turns with, which the scale is put on.
 lks_result check_bone_tree(const lks_world& world, const lks_ragdoll_def& def);

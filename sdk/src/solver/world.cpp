@@ -37,7 +37,8 @@ lks_world::~lks_world() {
 }
 
 lks_result lks_world::fail(lks_result result, const Sentence& sentence) const {
-    lks::report(&last_error, result, sentence);
+    lks::report(&last_error, result,
+                failing_within == nullptr ? sentence : Sentence(*failing_within) << sentence.text());
     if (log.write != nullptr) {
         log.write(log.user, LKS_LOG_ERROR, last_error.message);
     }

@@ -83,6 +83,8 @@ struct lks_world {
     lks::EventLog event_log;
     bool running = false; // inside a tick's hook
     mutable lks_error last_error{};
+    // What stands before the sentence of whatever fails meanwhile; null: nothing.
+    mutable const lks::Sentence* failing_within = nullptr;
 
     // Keeps the sentence and hands it to the log.
     lks_result fail(lks_result result, const lks::Sentence& sentence) const;
