@@ -32,6 +32,8 @@ public:
           turn_softness_(from.angular_compliance, 0, rate), points_(points_softness_),
           distance_(from, points_softness_), drive_(from, rate) {}
 
+    void set_motor(const RigidMotor& motor) { drive_.set_motor(motor); }
+
     std::size_t a, b;
     bool in_tree = false; // its points are solved there
     bool in_held_tree = false;

@@ -19,11 +19,18 @@ public:
     // rate: substeps a second.
     JointDrive(const RigidJoint& joint, Scalar rate)
         : hinge_(joint.kind == LKS_JOINT_HINGE), frame_a_(quaternion_of<Scalar>(joint.frame_a)),
-          frame_b_(quaternion_of<Scalar>(joint.frame_b)), motor_(joint.motor.max_torque > 0),
-          target_(quaternion_of<Scalar>(joint.motor.target)),
-          motor_share_(1 / std::max(static_cast<Scalar>(joint.motor.response) * rate, Scalar(8))),
-          most_(static_cast<Scalar>(motor_ ? joint.motor.max_torque : joint.friction) / (rate * rate)),
-          drag_softness_(joint.angular_damping > 0 ? rate / static_cast<Scalar>(joint.angular_damping) : 0) {}
+          frame_b_(quaternion_of<Scalar>(joint.frame_b)), rate_(rate),
+          friction_(static_cast<Scalar>(joint.friction)),
+          drag_softness_(joint.angular_damping > 0 ? rate / static_cast<Scalar>(joint.angular_damping) : 0) {
+        set_motor(joint.motor);
+    }
+
+    void set_motor(const RigidMotor& motor) {
+        motor_ = motor.max_torque > 0;
+        target_ = quaternion_of<Scalar>(motor.target);
+        motor_share_ = 1 / std::max(static_cast<Scalar>(motor.response) * rate_, Scalar(8));
+        most_ = (motor_ ? static_cast<Scalar>(motor.max_torque) : friction_) / (rate_ * rate_);
+    }
 
     bool is_motor() const { return motor_; }
 
@@ -108,12 +115,14 @@ private:
 
     bool hinge_;
     Quat frame_a_, frame_b_;
-    bool motor_;
+    Scalar rate_;
+    Scalar friction_;
+    bool motor_ = false;
     Quat target_;
-    Scalar motor_share_;   // of what is missing, in a substep
-    Scalar most_;          // kg·m², of friction or the motor; 0: none
-    Scalar drag_softness_; // 0: none
-    Vec grip_;             // kg·m², of friction or the motor: carried from substep to substep
+    Scalar motor_share_ = 0; // of what is missing, in a substep
+    Scalar most_ = 0;        // kg·m², of friction or the motor; 0: none
+    Scalar drag_softness_;   // 0: none
+    Vec grip_;               // kg·m², of friction or the motor: carried from substep to substep
     // Of the substep.
     Vec aim_;
     Vec drag_; // kg·m²

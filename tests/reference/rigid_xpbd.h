@@ -98,6 +98,9 @@ public:
         lead_body(body_count_ + collider, position, orientation);
     }
 
+    // Between two ticks; joints by their order in the model.
+    void drive(std::size_t joint, const RigidMotor& motor) { joints_[joint].set_motor(motor); }
+
     std::size_t size() const { return body_count_; }
     support::Vector position(std::size_t body) const { return bodies_[body].position.widened(); }
     support::Vector velocity(std::size_t body) const { return bodies_[body].velocity.widened(); }

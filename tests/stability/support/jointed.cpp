@@ -42,6 +42,14 @@ void Jointed::add_chain(std::uint32_t links, double ratio, double damping) {
     }
 }
 
+void Jointed::follow_motors() {
+    for (std::size_t i = 0; i < joints().size(); ++i) {
+        lks_motor motor{};
+        REQUIRE(lks_joint_motor(world(), joints()[i], &motor) == LKS_OK);
+        twin().drive(i, reference::rigid_motor(motor));
+    }
+}
+
 void Jointed::step(int ticks) {
     for (int i = 0; i < ticks; ++i) {
         world().step();

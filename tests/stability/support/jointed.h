@@ -1,5 +1,4 @@
-// Bodies on joints and on the ground in a world of the SDK, and the float32 twin of them beside it. The twin
-// knows no damping of bodies.
+// Bodies on joints and on the ground in a world of the SDK, and the float32 twin of them beside it.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +22,12 @@ public:
     }
     // Once it runs.
     void add_later(const lks_collider_def& collider);
-    // `links` capsules of 30 cm in a level chain on an anchor, the last of them so many times as heavy. What
-    // damps them, 1/s, the twin does not know.
+    // `links` capsules of 30 cm in a level chain on an anchor, the last of them so many times as heavy; what
+    // damps them, 1/s.
     void add_chain(std::uint32_t links, double ratio, double damping = 0);
+
+    // Once it runs: the twin's motors are what the world's are now.
+    void follow_motors();
 
     void step(int ticks = 1);
 
