@@ -84,7 +84,7 @@ Experiment measure_part(const std::string& part, const AccuracyOptions& options,
     scenes.push_back(cloth_fine());
     MeasuredScene scene = *std::find_if(
         scenes.begin(), scenes.end(), [&](const MeasuredScene& candidate) { return candidate.name == part; });
-    if (options.long_times && scene.lowest_vertex > 0) {
+    if (options.long_times && scene.may_be_tethered()) {
         // Air brings it to rest.
         scene.ticks = 600;
         scene.deviation_tick = 600;

@@ -22,9 +22,9 @@ struct Trace {
     std::vector<Positions> later;
     double worst_stretch = 0;   // of all ticks
     double mean_stretch = 0;    // over constraints and ticks
-    double lowest = 0;          // height of the lowest vertex at the end
+    double height = 0;          // at the end, of what sags
     double energy = 0;          // at the end
-    std::vector<double> forces; // at the first pin, by tick
+    std::vector<double> forces; // what the first pin bears, by tick
     double nanoseconds = 0;
 };
 
@@ -100,6 +100,17 @@ reference::Model stiff_part(const reference::Model& model, const MeasuredScene& 
     return stiff;
 }
 
+double height_of(const MeasuredScene& measured, const Positions& positions) {
+    if (measured.lowest_vertex > 0) {
+        return positions[measured.lowest_vertex].y;
+    }
+    double sum = 0; // all have the same mass
+    for (const support::Vector& p : positions) {
+        sum += p.y;
+    }
+    return sum / static_cast<double>(positions.size());
+}
+
 Trace trace(reference::Simulation& simulation, const MeasuredScene& measured, const reference::Model& stiff) {
     using Clock = std::chrono::steady_clock;
     Trace result;
@@ -117,7 +128,7 @@ Trace trace(reference::Simulation& simulation, const MeasuredScene& measured, co
             result.at_deviation = positions;
         }
         if (tick == last) {
-            result.lowest = positions[measured.lowest_vertex].y;
+            result.height = height_of(measured, positions);
             const Positions velocities = simulation.velocities();
             result.energy = velocities.empty() ? undefined : energy_of(measured.scene, positions, velocities);
         }
@@ -133,19 +144,36 @@ Trace trace(reference::Simulation& simulation, const MeasuredScene& measured, co
     return result;
 }
 
+// What the constraint at the first pin pulls with; of several how much they bear altogether, upwards. (To the
+// side they pull more and more until threads are straight, which takes thousands of sweeps.)
+double load_of(const reference::Simulation& simulation, const reference::Model& model, std::uint32_t pin) {
+    const Positions positions = simulation.positions();
+    double one = 0;
+    double borne = 0;
+    int count = 0;
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const reference::Edge& edge = model.edges[e];
+        if (edge.a != pin && edge.b != pin) {
+            continue;
+        }
+        const support::Vector away = positions[edge.a == pin ? edge.b : edge.a] - positions[pin];
+        one = simulation.force(e);
+        borne -= one * away.y / away.length();
+        ++count;
+    }
+    return count == 1 ? one : borne;
+}
+
 std::vector<double> forces_of(Engine engine, const MeasuredScene& measured,
                               const reference::Schedule& schedule) {
     reference::ParticleScene scene = measured.scene;
     scene.record_forces = true;
     const reference::Model model = model_of(scene);
-    const auto at_pin = std::find_if(model.edges.begin(), model.edges.end(), [&](const reference::Edge& e) {
-        return e.a == scene.pins[0] || e.b == scene.pins[0];
-    });
     const auto simulation = simulate(engine, scene, schedule);
     std::vector<double> forces;
     for (int tick = 0; tick < measured.ticks; ++tick) {
         simulation->tick();
-        forces.push_back(simulation->force(static_cast<std::size_t>(at_pin - model.edges.begin())));
+        forces.push_back(load_of(*simulation, model, scene.pins[0]));
     }
     return forces;
 }
@@ -195,9 +223,10 @@ struct Measurer {
             converged.later =
                 trace(*simulate(Engine::double_precision, direct.scene, schedule), direct, stiff).later;
         }
-        if (measured.force_at_pin) {
+        if (measured.is_pinned()) {
             // Of ropes solved at once: swept, forces jump from one substep to the next.
-            converged.forces = forces_of(Engine::double_precision, at_once(measured), schedule);
+            converged.forces = forces_of(Engine::double_precision,
+                                         measured.is_rope() ? at_once(measured) : measured, schedule);
         }
         start_energy =
             energy_of(measured.scene, measured.scene.start, Positions(measured.scene.start.size()));
@@ -220,17 +249,14 @@ struct Measurer {
         add(100 * found.mean_stretch);
         add(deviation);
         add(twin == nullptr ? undefined : largest_distance(found.at_deviation, twin->at_deviation));
-        if (measured.lowest_vertex > 0) {
-            add(std::abs(found.lowest - converged.lowest));
-        }
-        if (measured.force_at_pin) {
+        add(std::abs(found.height - converged.height));
+        if (measured.is_pinned()) {
             const bool known = !found.forces.empty();
             add(known ? 100 * force_error(found.forces, converged.forces) : undefined);
             add(known ? 100 * std::abs(mean_of(found.forces) / mean_of(converged.forces) - 1) : undefined);
         }
-        if (measured.keeps_energy) {
-            add(100 * std::abs(found.energy - start_energy) / energy_scale);
-        }
+        const double right_energy = measured.keeps_energy ? start_energy : converged.energy;
+        add(100 * std::abs(found.energy - right_energy) / energy_scale);
         for (std::size_t i = 0; i < measured.later_ticks.size(); ++i) {
             add(largest_distance(found.later[i], converged.later[i]));
             add(twin == nullptr ? undefined : largest_distance(found.later[i], twin->later[i]));
@@ -270,26 +296,23 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
          "the farthest that any particle is after " + seconds_of(measured.deviation_tick) +
              " from where the same method in double precision has it at the same setting",
          0, 2}};
-    if (measured.lowest_vertex > 0) {
+    experiment.quantities.push_back(
+        {"sag", "m", std::string("how far ") + measured.sag_of + " is from its right height at the end",
+         0.05});
+    if (measured.is_pinned()) {
+        experiment.quantities.push_back({"support force, a tick", "%",
+                                         "root mean square error of what the pin bears as it is read at the "
+                                         "end of a tick, relative to it",
+                                         20});
         experiment.quantities.push_back(
-            {"sag", "m", "how far the middle of the lower edge is from its right height at the end", 0.05});
+            {"support force, mean", "%", "error of the mean of all readings of what the pin bears", 5});
     }
-    if (measured.force_at_pin) {
-        experiment.quantities.push_back(
-            {"support force, a tick", "%",
-             "root mean square error of the force at the pin as it is read at the "
-             "end of a tick, relative to the force",
-             20});
-        experiment.quantities.push_back(
-            {"support force, mean", "%", "error of the mean of all readings of the force at the pin", 5});
-    }
-    if (measured.keeps_energy) {
-        experiment.quantities.push_back(
-            {"energy drift", "%",
-             "energy gained or lost at the end, relative to what the whole would get "
-             "by falling through its length",
-             5});
-    }
+    experiment.quantities.push_back(
+        {"energy drift", "%",
+         std::string(measured.keeps_energy ? "energy gained or lost at the end"
+                                           : "how far the energy at the end is from the right one") +
+             ", relative to what the whole would get by falling through its length",
+         5});
     for (const int tick : measured.later_ticks) {
         const std::string when = seconds_of(tick);
         const int deviation = static_cast<int>(experiment.quantities.size());
@@ -313,7 +336,7 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
                  std::to_string(schedules.size()) + ")");
         const auto run = [&](Engine engine, const MeasuredScene& scene) {
             Trace found = trace(*simulate(engine, scene.scene, schedule), scene, measurer.stiff);
-            if (scene.force_at_pin && engine != Engine::pbd) {
+            if (scene.is_pinned() && scene.scene.tethers == 0 && engine != Engine::pbd) {
                 found.forces = forces_of(engine, scene, schedule);
             }
             return found;

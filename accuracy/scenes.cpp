@@ -24,7 +24,8 @@ MeasuredScene rope_swing() {
     measured.what = "2 m in 40 segments, inextensible, held at one end and let go horizontally; one second.";
     measured.scene = reference::make_rope(40, 2, 0.01, inextensible, {1, 0, 0});
     measured.keeps_energy = true;
-    measured.force_at_pin = true;
+    measured.lowest_vertex = 40;
+    measured.sag_of = "the rope's end";
     measured.reference_substeps = 2560;
     measured.recommended = {10, 20, 40};
     measured.recommended_at_once = {5, 10, 20};
@@ -40,7 +41,8 @@ MeasuredScene rope_heavy_end() {
     measured.scene.masses.back() = 1;
     measured.is_regular = true;
     measured.keeps_energy = true;
-    measured.force_at_pin = true;
+    measured.lowest_vertex = 40;
+    measured.sag_of = "the rope's end";
     measured.reference_substeps = 2560;
     measured.recommended = {20, 40, 80};
     measured.recommended_at_once = {5, 10, 20};
@@ -71,6 +73,7 @@ MeasuredScene hanging(std::uint32_t side) {
     measured.scene.pins = {0, side - 1};
     measured.ticks = 120;
     measured.lowest_vertex = std::size_t{side} * (side - 1) + side / 2;
+    measured.sag_of = "the middle of the lower edge";
     measured.has_compliance = true;
     return measured;
 }
@@ -89,6 +92,7 @@ MeasuredScene cloth_fine() {
     MeasuredScene measured = hanging(64);
     measured.name = "cloth_fine";
     measured.title = "Fine cloth, hanging";
+    measured.recommended = {20, 40};
     return measured;
 }
 
@@ -102,6 +106,7 @@ MeasuredScene cloth_drape() {
     measured.scene = cloth(24);
     measured.scene.ball = {{0.1, -0.6, 0.07}, 0.5};
     measured.deviation_tick = 15;
+    measured.sag_of = "the cloth's centre of mass";
     measured.has_compliance = true;
     measured.recommended = {10, 20, 40};
     return measured;

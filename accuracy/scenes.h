@@ -18,15 +18,16 @@ struct MeasuredScene {
     bool is_regular = false;                // not chaotic: places can be compared after a minute
     std::vector<int> later_ticks{};         // when they are, beside the direct solution
     bool keeps_energy = false;              // nothing takes it out: no air, nothing soft
-    bool force_at_pin = false;              // of the first edge at the first pin
-    std::size_t lowest_vertex = 0;          // whose height is the sag; 0: not asked for
+    std::size_t lowest_vertex = 0;          // whose height is the sag; 0: the mean of all
+    const char* sag_of = "";                // "the rope's end"
     bool has_compliance = false;            // PBD can't have it
     int reference_substeps = 640;           // in double precision, one iteration each
     std::vector<int> recommended{};         // substeps of one iteration that docs/accuracy.md names
     std::vector<int> recommended_at_once{}; // the same of a rope that is solved at once
 
     bool is_rope() const { return !scene.rest.empty(); }
-    bool may_be_tethered() const { return !is_rope() && !scene.pins.empty(); }
+    bool is_pinned() const { return !scene.pins.empty(); }
+    bool may_be_tethered() const { return !is_rope() && is_pinned(); }
 };
 
 // The same rope, solved at once.

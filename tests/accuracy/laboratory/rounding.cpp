@@ -19,10 +19,18 @@ TEST_CASE("in every recommended setting rounding is below a tenth of the method'
     spring.scene = spring_scene();
     spring.recommended = {5, 20, 40};
     scenes.push_back(spring);
+    scenes.push_back(tethered(cloth_hang()));
+    for (MeasuredScene fine : {cloth_fine(), tethered(cloth_fine())}) {
+        if (!support::long_runs()) {
+            fine.recommended.resize(1);
+        }
+        scenes.push_back(fine);
+    }
     for (MeasuredScene& measured : scenes) {
         REQUIRE(!measured.recommended.empty());
         if (!support::long_runs()) {
-            measured.reference_substeps = 320; // of which the method's own error is a part
+            // Of which the method's own error is a part.
+            measured.reference_substeps = measured.scene.columns == 64 ? 160 : 320;
         }
         for (const int substeps : measured.recommended) {
             const Rounding rounding = rounding_of(measured, {substeps, 1});
