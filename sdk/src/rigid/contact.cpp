@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
-#include "kernels/bounded.h"
 #include "rigid/contact_points.h"
 
 namespace lks {
@@ -33,15 +32,6 @@ void span(const Direction& n, Direction (&directions)[3]) {
     directions[2] = {part(second.x), part(second.y), part(second.z)};
 }
 
-// By an impulse along the normal.
-void accelerate(const Contact& contact, const ContactRows& rows, std::int64_t p,
-                const ContactBodies& bodies) {
-    accelerate(bodies.a, rows.a.rows[normal_row], contact.shares.a, rows.a.turn_shift, contact.normal(), p,
-               -1);
-    accelerate(bodies.b, rows.b.rows[normal_row], contact.shares.b, rows.b.turn_shift, contact.normal(), p,
-               1);
-}
-
 // Nobody normalises behind it. What does not move may be others' too, at the same time.
 void undo(Body& body, const Move& move, std::int32_t share) {
     if (share != 0) {
@@ -49,123 +39,6 @@ void undo(Body& body, const Move& move, std::int32_t share) {
         body.orientation = normalise(body.orientation);
     }
 }
-
-std::int64_t closing_speed(const Contact& contact, const Levers& levers, const ContactSpeeds& speeds) {
-    return -fixed::dot(contact.normal(), velocity_at(speeds.b, levers.b) - velocity_at(speeds.a, levers.a));
-}
-
-std::int64_t closing_speed(const Contact& contact, const Levers& levers, const Body& a, const Body& b) {
-    return closing_speed(contact, levers, {a.speeds(), b.speeds()});
-}
-
-bool has_struck(const ContactPoint& point, std::int64_t least_approach) {
-    return point.active && point.push.normal != 0 && point.approach > least_approach;
-}
-
-// Gives back speed at a contact's points, so that each of them parts as restitution wants it to where it
-// pushes, and pushes nothing where it parts faster: what it pushed may be taken back, no more. So the work of
-// all of them is what of it restitution does not give back.
-class Restoring {
-public:
-    Restoring(Contact& contact, const ContactBodies& bodies, const ContactSpeeds& predicted,
-              std::int64_t least_approach, std::int64_t substeps_per_second)
-        : contact_(contact), bodies_(bodies) {
-        const fixed::Matrix3 turned_a = fixed::to_matrix(narrow(bodies.a.predicted_orientation));
-        const fixed::Matrix3 turned_b = fixed::to_matrix(narrow(bodies.b.predicted_orientation));
-        for (std::uint32_t i = 0; i < contact.count; ++i) {
-            const ContactPoint& point = contact.points[i];
-            if (!point.active) {
-                continue;
-            }
-            const bool struck = has_struck(point, least_approach);
-            struck_count_ += struck ? 1u : 0u;
-            // Where it was when its rows were made: only so does what is given back do as much work as what
-            // was taken.
-            const Levers levers = surfaces_of(
-                contact, {fixed::rotate(turned_a, point.core_a), fixed::rotate(turned_b, point.core_b)});
-            const std::int64_t parting =
-                struck ? fixed::multiply_shift(closing_speed(contact, levers, predicted), contact.restitution,
-                                               world_fraction_bits)
-                       : -closing_speed(contact, levers, now());
-            points_[count_++] = {
-                i, struck, levers, parting, -fixed::multiply_shift(point.push.normal, substeps_per_second, 0),
-                0};
-        }
-    }
-
-    bool any_struck() const { return struck_count_ > 0; }
-
-    void run() {
-        // What all points owe alike is given at their middle: one after the other they turn what comes down
-        // flat.
-        if (struck_count_ > 1 && struck_count_ == count_) {
-            give_alike();
-        }
-        constexpr int most_rounds = 16;
-        for (int round = 0; round < most_rounds && give_each(); ++round) {}
-    }
-
-private:
-    struct Point {
-        std::uint32_t index;
-        bool struck;
-        Levers levers;
-        std::int64_t parting; // World m/s: how fast it is to part
-        std::int64_t least;   // what it may be given: less than nothing where it has pushed
-        std::int64_t given;
-    };
-
-    ContactSpeeds now() const { return {bodies_.a.speeds(), bodies_.b.speeds()}; }
-
-    std::int64_t owed(const Point& point) const {
-        return point.parting + closing_speed(contact_, point.levers, now());
-    }
-
-    void give_alike() {
-        std::int64_t sum = 0;
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            sum += owed(points_[i]);
-        }
-        const std::int64_t speed = sum / static_cast<std::int64_t>(count_);
-        if (speed > 0) {
-            const std::int64_t p = divide(speed, contact_.middle.inverses[normal_row]);
-            accelerate(contact_, contact_.middle, p, bodies_);
-            for (std::uint32_t i = 0; i < count_; ++i) {
-                points_[i].given = p / count_;
-            }
-            contact_.given_speed = fixed::saturating_add(contact_.given_speed, p);
-        }
-    }
-
-    // Whether anybody was given anything that is worth another round.
-    bool give_each() {
-        constexpr std::int64_t little = std::int64_t{1} << (world_fraction_bits - 14);
-        constexpr std::int64_t most_given = std::int64_t{1} << 60;
-        bool more = false;
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            Point& point = points_[i];
-            const ContactRows& rows = contact_.points[point.index].rows;
-            const std::int64_t speed = owed(point);
-            const std::int64_t wanted =
-                fixed::saturating_add(point.given, divide(speed, rows.inverses[normal_row]));
-            const std::int64_t most = point.struck ? most_given : 0;
-            const std::int64_t p = std::clamp(wanted, point.least, most) - point.given;
-            if (p != 0) {
-                accelerate(contact_, rows, p, bodies_);
-                point.given += p;
-                contact_.given_speed = fixed::saturating_add(contact_.given_speed, p);
-                more = more || !within(speed, little);
-            }
-        }
-        return more;
-    }
-
-    Contact& contact_;
-    const ContactBodies& bodies_;
-    Point points_[greatest_point_count];
-    std::uint32_t count_ = 0;
-    std::uint32_t struck_count_ = 0;
-};
 
 // What the points of a contact pushed before, to be handed on.
 class OldPushes {
@@ -273,25 +146,6 @@ void begin_substep(Contact& contact, const Body& a, const Body& b, const MotionR
     }
 }
 
-bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach, const MotionRate& rate) {
-    if (contact.restitution == 0 || contact.count != 1) {
-        return false;
-    }
-    const ContactPoint& point = contact.points[0];
-    const Levers levers = surfaces_of(contact, cores_now(point, bodies.a, bodies.b));
-    const std::int64_t approach = closing_speed(contact, levers, bodies.a, bodies.b);
-    if (approach <= least_approach || point.separation > approach / rate.substeps_per_second) {
-        return false;
-    }
-    ContactRows rows;
-    fill_rows(contact, bodies, levers, 1, rows);
-    const std::int64_t back = fixed::multiply_shift(approach, contact.restitution, world_fraction_bits);
-    const std::int64_t p = divide(approach + back, rows.inverses[normal_row]);
-    contact.given_speed = fixed::saturating_add(contact.given_speed, p);
-    accelerate(contact, rows, p, bodies);
-    return true;
-}
-
 void add_up_pushes(Contact& contact, const MotionRate& rate) {
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         if (contact.points[i].active) {
@@ -299,17 +153,6 @@ void add_up_pushes(Contact& contact, const MotionRate& rate) {
                 contact.given_speed,
                 fixed::multiply_shift(contact.points[i].push.normal, rate.substeps_per_second, 0));
         }
-    }
-}
-
-void restore_speed(Contact& contact, ContactBodies bodies, const ContactSpeeds& predicted,
-                   std::int64_t least_approach, const MotionRate& rate) {
-    if (contact.restitution == 0) {
-        return;
-    }
-    Restoring restoring(contact, bodies, predicted, least_approach, rate.substeps_per_second);
-    if (restoring.any_struck()) {
-        restoring.run();
     }
 }
 

@@ -27,6 +27,16 @@ inline Levers surfaces_of(const Contact& contact, const Levers& cores) {
             cores.b - fixed::scale(contact.normal(), contact.radius_b)};
 }
 
+// How fast the surfaces close there, World m/s.
+inline std::int64_t closing_speed(const Contact& contact, const Levers& levers, const ContactSpeeds& speeds) {
+    return -fixed::dot(contact.normal(), velocity_at(speeds.b, levers.b) - velocity_at(speeds.a, levers.a));
+}
+
+inline std::int64_t closing_speed(const Contact& contact, const Levers& levers, const Body& a,
+                                  const Body& b) {
+    return closing_speed(contact, levers, {a.speeds(), b.speeds()});
+}
+
 // How much the surfaces have parted along the normal in this substep, beyond what they may close or have to
 // part. Round surfaces part as their cores do, however they turn.
 inline std::int64_t gap_of(const Contact& contact, const ContactPoint& point, const Levers& cores,
