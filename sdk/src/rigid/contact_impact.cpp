@@ -9,6 +9,9 @@
 namespace lks {
 namespace {
 
+// At once, World m/s: what divide() takes.
+constexpr std::int64_t greatest_given = std::int64_t{1} << 55;
+
 // By an impulse along the normal.
 void accelerate(const Contact& contact, const ContactRows& rows, std::int64_t p,
                 const ContactBodies& bodies) {
@@ -77,9 +80,8 @@ private:
 
     ContactSpeeds now() const { return {bodies_.a.speeds(), bodies_.b.speeds()}; }
 
-    // Within what divide() takes; what is faster than that is given in several rounds.
     std::int64_t owed(const Point& point) const {
-        return bounded(point.parting + closing_speed(contact_, point.levers, now()), std::int64_t{1} << 55);
+        return bounded(point.parting + closing_speed(contact_, point.levers, now()), greatest_given);
     }
 
     void give_alike() {
@@ -143,7 +145,7 @@ bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach,
     ContactRows rows;
     fill_rows(contact, bodies, levers, 1, rows);
     const std::int64_t back = fixed::multiply_shift(approach, contact.restitution, world_fraction_bits);
-    const std::int64_t p = divide(approach + back, rows.inverses[normal_row]);
+    const std::int64_t p = divide(bounded(approach + back, greatest_given), rows.inverses[normal_row]);
     contact.given_speed = fixed::saturating_add(contact.given_speed, p);
     accelerate(contact, rows, p, bodies);
     return true;
