@@ -239,8 +239,11 @@ Section report_cloth(const ClothHang& cloth, const std::vector<SagRun>& runs) {
         lines += lks_bench::value_pair(run.iterations, run.sag);
         cost_lines += lks_bench::value_pair(run.iterations, run.milliseconds);
         if (i + 1 == runs.size() || runs[i + 1].solver != run.solver) {
-            const std::string looks =
-                " with linespoints lw 3 pt 7" + line_colour_of(run.solver) + " title '" + run.solver + "'";
+            // It lies upon ours.
+            const bool is_reference = run.solver == name_of(reference::Engine::xpbd);
+            const std::string looks = std::string(is_reference ? " with linespoints lw 2 dt 2 pt 6 ps 1.8"
+                                                               : " with linespoints lw 3 pt 7") +
+                                      line_colour_of(run.solver) + " title '" + run.solver + "'";
             curves.push_back(plot.script.data(lines) + looks);
             costs.push_back(plot.script.data(cost_lines) + looks);
             lines.clear();
