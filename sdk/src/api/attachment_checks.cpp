@@ -47,7 +47,7 @@ std::uint32_t sides_that_are(const AttachmentDescription& d, std::uint32_t objec
 } // namespace
 
 lks_result check_held_nowhere(const lks_world& world, lks_object_id object, std::uint32_t vertex,
-                              const char* purpose) {
+                              const char* refused) {
     const RigidScene& scene = world.rigid;
     const std::uint32_t particle = world.objects[object.index].object->asset().vertex_to_particle[vertex];
     for (std::size_t i = 0; i < scene.attachments.size(); ++i) {
@@ -61,7 +61,7 @@ lks_result check_held_nowhere(const lks_world& world, lks_object_id object, std:
                               Sentence()
                                   << "The attachment with index " << i << " holds vertex " << vertex
                                   << " of the object with index " << object.index
-                                  << " at what can't move, without compliance or a break_force; " << purpose);
+                                  << " at what can't move, without compliance or a break_force; " << refused);
         }
     }
     return LKS_OK;

@@ -10,10 +10,9 @@ lks_result check_attachment_ranges(const lks_world& world, lks_fixed compliance,
                                    lks_fixed break_force);
 lks_result check_attachment_def(const lks_world& world, const lks_attachment_def& def);
 // That no attachment which neither stretches nor breaks holds the vertex at something that can't move, before
-// another such attachment or a pin holds it, too. `purpose` ends the
-// sentence.
+// another such attachment or a pin holds it, too: `refused` says of it what it then can't be.
 lks_result check_held_nowhere(const lks_world& world, lks_object_id object, std::uint32_t vertex,
-                              const char* purpose);
+                              const char* refused);
 // LKS_OK, or reported: no such attachment.
 lks_result require_attachment(const lks_world* world, lks_attachment_id id);
 
