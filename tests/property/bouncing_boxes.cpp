@@ -120,7 +120,7 @@ TEST_CASE("boxes and capsules that are thrown at the ground in any direction gai
                          << ", " << restitution << ", friction " << friction << ", " << substeps);
                     CHECK(found.worst > 0.999); // it was there
                     CHECK(found.worst < (restitution < 1 ? 1.001 : 1.15));
-                    CHECK(found.above <= (restitution < 1 ? 0 : samples / 8));
+                    CHECK(found.above <= (restitution < 1 ? 0 : samples / 8 + 2));
                 }
             }
         }
