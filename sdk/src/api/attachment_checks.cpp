@@ -50,7 +50,7 @@ lks_result check_held_nowhere(const lks_world& world, lks_object_id object, std:
                               const char* refused) {
     const RigidScene& scene = world.rigid;
     const std::uint32_t particle = world.objects[object.index].object->asset().vertex_to_particle[vertex];
-    for (std::size_t i = 0; i < scene.attachments.size(); ++i) {
+    for (std::uint32_t i = 0; i < scene.attachments.size(); ++i) {
         const AttachmentDescription& d = scene.attachments[i].description;
         if (!scene.attachment_slots[i].used || gives_way(d)) {
             continue;
