@@ -228,7 +228,9 @@ TEST_CASE("ragdolls with trees that are none are refused whole") {
 }
 
 TEST_CASE("what bones bear at a scale stays within what joints can be given, and never becomes everything") {
-    for (const auto& [scale, strength] : {std::pair{20.0, 8000000.0}, {0.05, 1e-9}}) {
+    for (const auto& row : {std::pair{20.0, 8000000.0}, {0.05, 1e-9}}) {
+        const double scale = row.first;
+        const double strength = row.second;
         World world(world_def(60, 8));
         Humanoid humanoid;
         humanoid.def.scale = fixed(scale);

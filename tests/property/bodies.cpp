@@ -126,8 +126,10 @@ TEST_CASE("a T of two capsules turns over and over for ten minutes, with its mom
 }
 
 TEST_CASE("a ball bounces to the height that its restitution gives it") {
-    for (const auto& [restitution, substeps] :
+    for (const auto& row :
          {std::pair{0.0, 20u}, {0.3, 20u}, {0.5, 20u}, {0.9, 20u}, {0.3, 8u}, {0.5, 8u}, {0.9, 8u}}) {
+        const double restitution = row.first;
+        const std::uint32_t substeps = row.second;
         World world(world_def(60, substeps));
         add_ground(world);
         lks_body_def def = lks_default_body_def();

@@ -72,7 +72,9 @@ TEST_CASE("an automatic rope moves as the one that its world's substeps and iter
                            Row{60, 100, 1, false, false, false}, Row{30, 20, 1, false, true, true},
                            Row{240, 4, 1, false, false, true}, Row{60, 10, 1, false, true, true},
                            Row{60, 10, 4, false, false, true}, Row{60, 20, 8, false, false, false}}) {
-        for (const auto& [segments, direct] : {std::pair{2u, row.two}, {12u, row.twelve}, {40u, row.forty}}) {
+        for (const auto& rope : {std::pair{2u, row.two}, {12u, row.twelve}, {40u, row.forty}}) {
+            const std::uint32_t segments = rope.first;
+            const bool direct = rope.second;
             INFO(row.rate << " Hz x " << row.substeps << " x " << row.iterations << ", " << segments);
             const lks_world_def def = world_def(row.rate, row.substeps, row.iterations);
             Three three(segments, def);

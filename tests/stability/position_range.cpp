@@ -165,14 +165,14 @@ TEST_CASE("jointed bodies that are as far apart as the world is wide come togeth
     lks_joint_def rod = ball;
     rod.kind = LKS_JOINT_DISTANCE;
     rod.distance_min = rod.distance_max = support::fixed(1);
-    for (const auto& [kind, def] : {std::pair{"ball joint", ball}, {"soft joint", soft}, {"rod", rod}}) {
+    for (const auto& kind : {std::pair{"ball joint", ball}, {"soft joint", soft}, {"rod", rod}}) {
         for (const double side : {1.0, -1.0}) {
             World world(weightless(20));
             const lks_body_id held = add_anchor(world, support::fixed(side * edge, 0, -side * edge));
             const lks_body_id free =
                 add_body(world, ball_shape(0.2), support::fixed(-side * edge, 0, side * edge));
-            const lks_joint_id joint = add_joint(world, def, held, free);
-            INFO("bodies on two corners of the world, ", kind);
+            const lks_joint_id joint = add_joint(world, kind.second, held, free);
+            INFO("bodies on two corners of the world, ", kind.first);
             // 23,725 km, of which the number holds 8,388.
             CHECK(error_of(world, joint) > 8388606.9);
             world.step(60);
