@@ -248,7 +248,9 @@ TEST_CASE("an image whose kinematic body is farther from its target than a tick 
     std::size_t word = lks::image_checked_from;
     const auto value_at = [&](std::size_t at) {
         std::uint64_t value = 0;
-        std::memcpy(&value, good.bytes() + at, 8);
+        for (std::size_t i = 8; i-- > 0;) {
+            value = value << 8 | good.bytes()[at + i];
+        }
         return value;
     };
     while (value_at(word) != static_cast<std::uint64_t>(place.x)) {
