@@ -1,8 +1,9 @@
 #include "paper.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
+
+#include "call_time.h"
 
 namespace lks_accuracy {
 
@@ -10,7 +11,6 @@ using reference::Engine;
 
 std::vector<SagRun> run_cloth(const ClothHang& cloth, const std::vector<Engine>& engines,
                               const std::vector<int>& iterations) {
-    using Clock = std::chrono::steady_clock;
     const lks_distance_material material{cloth.compliance, 0, 1, 0};
     reference::ParticleScene scene =
         reference::make_cloth(cloth.side, 2, 1, {material, material, material}, false);
@@ -23,13 +23,10 @@ std::vector<SagRun> run_cloth(const ClothHang& cloth, const std::vector<Engine>&
             const auto simulation = simulate(engine, scene, {1, count}, cloth.pbd_stiffness);
             double least = std::numeric_limits<double>::infinity();
             for (int frame = 0; frame < static_cast<int>(cloth.seconds * scene.tick_rate_hz); ++frame) {
-                const Clock::time_point begin = Clock::now();
-                simulation->tick();
-                const std::chrono::duration<double, std::milli> taken = Clock::now() - begin;
-                least = std::min(least, taken.count());
+                least = std::min(least, nanoseconds_of([&] { simulation->tick(); }));
             }
-            runs.push_back(
-                {name_of(engine), count, scene.start[middle].y - simulation->positions()[middle].y, least});
+            runs.push_back({name_of(engine), count, scene.start[middle].y - simulation->positions()[middle].y,
+                            least / 1e6});
         }
     }
     return runs;

@@ -1,12 +1,12 @@
 #include "particles.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "bullet_peer.h"
+#include "call_time.h"
 
 namespace lks_accuracy {
 namespace {
@@ -112,14 +112,11 @@ double height_of(const MeasuredScene& measured, const Positions& positions) {
 }
 
 Trace trace(reference::Simulation& simulation, const MeasuredScene& measured, const reference::Model& stiff) {
-    using Clock = std::chrono::steady_clock;
     Trace result;
     double least = std::numeric_limits<double>::infinity();
     const int last = std::max(measured.ticks, measured.deviation_tick);
     for (int tick = 1; tick <= last; ++tick) {
-        const Clock::time_point begin = Clock::now();
-        simulation.tick();
-        least = std::min(least, std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
+        least = std::min(least, nanoseconds_of([&] { simulation.tick(); }));
         const Positions positions = simulation.positions();
         const reference::Stretch stretch = stretch_of(stiff, positions);
         result.worst_stretch = std::max(result.worst_stretch, stretch.worst);
@@ -144,36 +141,50 @@ Trace trace(reference::Simulation& simulation, const MeasuredScene& measured, co
     return result;
 }
 
-// What the constraint at the first pin pulls with; of several how much they bear altogether, upwards. (To the
-// side they pull more and more until threads are straight, which takes thousands of sweeps.)
-double load_of(const reference::Simulation& simulation, const reference::Model& model, std::uint32_t pin) {
-    const Positions positions = simulation.positions();
-    double one = 0;
-    double borne = 0;
-    int count = 0;
+// A constraint at a pin, and its other end.
+struct PinEdge {
+    std::size_t edge;
+    std::uint32_t away;
+};
+
+std::vector<PinEdge> edges_at(const reference::Model& model, std::uint32_t pin) {
+    std::vector<PinEdge> found;
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
         const reference::Edge& edge = model.edges[e];
-        if (edge.a != pin && edge.b != pin) {
-            continue;
+        if (edge.a == pin || edge.b == pin) {
+            found.push_back({e, edge.a == pin ? edge.b : edge.a});
         }
-        const support::Vector away = positions[edge.a == pin ? edge.b : edge.a] - positions[pin];
-        one = simulation.force(e);
-        borne -= one * away.y / away.length();
-        ++count;
     }
-    return count == 1 ? one : borne;
+    return found;
+}
+
+// What the constraint at a pin pulls with; of several how much they bear altogether, upwards. (To the side
+// they pull more and more until threads are straight, which takes thousands of sweeps.)
+double load_of(const reference::Simulation& simulation, const std::vector<PinEdge>& edges,
+               std::uint32_t pin) {
+    if (edges.size() == 1) {
+        return simulation.force(edges[0].edge);
+    }
+    const Positions positions = simulation.positions();
+    double borne = 0;
+    for (const PinEdge& at : edges) {
+        const support::Vector way = positions[at.away] - positions[pin];
+        borne -= simulation.force(at.edge) * way.y / way.length();
+    }
+    return borne;
 }
 
 std::vector<double> forces_of(Engine engine, const MeasuredScene& measured,
                               const reference::Schedule& schedule) {
     reference::ParticleScene scene = measured.scene;
     scene.record_forces = true;
-    const reference::Model model = model_of(scene);
+    const std::uint32_t pin = scene.pins[0];
+    const std::vector<PinEdge> edges = edges_at(model_of(scene), pin);
     const auto simulation = simulate(engine, scene, schedule);
     std::vector<double> forces;
     for (int tick = 0; tick < measured.ticks; ++tick) {
         simulation->tick();
-        forces.push_back(load_of(*simulation, model, scene.pins[0]));
+        forces.push_back(load_of(*simulation, edges, pin));
     }
     return forces;
 }

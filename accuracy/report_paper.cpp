@@ -53,6 +53,27 @@ std::string numbered(int iterations) {
     return std::to_string(iterations) + (iterations == 1 ? " iteration" : " iterations");
 }
 
+// The chain's worst errors by iterations, a curve a solver and rate, where there are the paper's iterations.
+std::vector<std::string> chain_error_curves(Plot& plot, const std::vector<ChainRun>& runs) {
+    std::vector<std::string> curves;
+    std::string points;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const ChainRun& run = runs[i];
+        if (in_the_paper(paper_chain_errors, run.iterations) != nullptr) {
+            points += lks_bench::value_pair(run.iterations, 100 * run.worst_error);
+        }
+        const bool is_last =
+            i + 1 == runs.size() || runs[i + 1].solver != run.solver || runs[i + 1].rate_hz != run.rate_hz;
+        if (is_last && !points.empty()) {
+            curves.push_back(plot.script.data(points) + " with linespoints lw 2 pt " +
+                             (run.rate_hz == 60 ? "6 dt 3" : "7") + line_colour_of(run.solver) + " title '" +
+                             run.solver + ", " + digits(run.rate_hz) + " Hz'");
+            points.clear();
+        }
+    }
+    return curves;
+}
+
 } // namespace
 
 Section report_spring(const std::vector<SpringRun>& runs) {
@@ -104,8 +125,6 @@ Section report_chain(const std::vector<ChainRun>& runs) {
     plot.script.command("set multiplot layout 1,2\nset title 'The force at the fixed end, 125 frames a "
                         "second'\nset xlabel 'frame'\nset ylabel 'newtons'\nset key inside left top");
     std::vector<std::string> curves;
-    // Worst errors by iterations, of the solvers that have the paper's, at each rate.
-    std::vector<std::pair<std::string, std::string>> errors;
     for (const ChainRun& run : runs) {
         const std::string name = run.solver + (run.iterations > 0 ? ", " + numbered(run.iterations) : "");
         if (run.iterations > 0) {
@@ -114,13 +133,6 @@ Section report_chain(const std::vector<ChainRun>& runs) {
                 table_row({run.solver, digits(run.rate_hz), std::to_string(run.iterations),
                            percent(run.worst_error), theirs == nullptr ? "" : percent(theirs->value),
                            percent(run.worst_of_peak), percent(run.first_error)});
-            if (theirs != nullptr) {
-                const std::string curve = run.solver + ", " + digits(run.rate_hz) + " Hz";
-                if (errors.empty() || errors.back().first != curve) {
-                    errors.emplace_back(curve, "");
-                }
-                errors.back().second += lks_bench::value_pair(run.iterations, 100 * run.worst_error);
-            }
             const std::string variant = name + ", " + digits(run.rate_hz) + " Hz";
             section.results.push_back(
                 {"paper_chain", "worst force error after the start", variant, 100 * run.worst_error, "%"});
@@ -146,12 +158,7 @@ Section report_chain(const std::vector<ChainRun>& runs) {
     plot.script.command("set title 'Its worst error after " + std::to_string(chain_frames_of_start) +
                         " frames'\nset xlabel 'iterations'\nset ylabel '%'\nset logscale xy\n"
                         "set xrange [40:1250]\nset xtics (50, 100, 1000)\nset key inside left bottom");
-    curves.clear();
-    for (const auto& [title, points] : errors) {
-        const bool at_60 = title.find(", 60") != std::string::npos;
-        curves.push_back(plot.script.data(points) + " with linespoints lw 2 pt " + (at_60 ? "6 dt 3" : "7") +
-                         line_colour_of(title.substr(0, title.rfind(", "))) + " title '" + title + "'");
-    }
+    curves = chain_error_curves(plot, runs);
     curves.push_back(paper_curve(plot, paper_chain_errors, 100, "the paper"));
     plot.script.command("plot " + lks_bench::comma_separated(curves) + "\nunset multiplot");
     section.plots.push_back(std::move(plot));

@@ -1,9 +1,9 @@
 #include "spring.h"
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "call_time.h"
 #include "paper.h"
 
 namespace lks_accuracy {
@@ -20,14 +20,11 @@ struct Swing {
 };
 
 Swing swing(Engine engine, const reference::Schedule& schedule, int ticks) {
-    using Clock = std::chrono::steady_clock;
     const auto simulation = simulate(engine, spring_scene(), schedule, pbd_spring_stiffness);
     Swing result{{amplitude}};
     double least = std::numeric_limits<double>::infinity();
     for (int tick = 0; tick < ticks; ++tick) {
-        const Clock::time_point begin = Clock::now();
-        simulation->tick();
-        least = std::min(least, std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
+        least = std::min(least, nanoseconds_of([&] { simulation->tick(); }));
         result.elongations.push_back(simulation->positions()[1].x - 1);
     }
     result.nanoseconds = least / 2;

@@ -1,7 +1,6 @@
 #include "stairs.h"
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "bullet_crowd.h"
 #include "bullet_peer.h"
+#include "call_time.h"
 #include "crowd_twin.h"
 #include "our_crowd.h"
 
@@ -21,7 +21,6 @@ constexpr int reference_substeps = 320;
 // Each tick's cost is the least of three falls, which are the same.
 Row fall(const std::string& solver, const reference::Schedule& schedule, const lks_bench::Crowd& crowd,
          const std::function<std::unique_ptr<lks_bench::CrowdWorld>()>& make, int ticks) {
-    using Clock = std::chrono::steady_clock;
     std::vector<double> costs(static_cast<std::size_t>(ticks), std::numeric_limits<double>::infinity());
     double sum = 0;
     std::size_t count = 0;
@@ -33,9 +32,7 @@ Row fall(const std::string& solver, const reference::Schedule& schedule, const l
         start_energy = world->energy();
         double least_energy = start_energy;
         for (double& cost : costs) {
-            const Clock::time_point begin = Clock::now();
-            world->tick();
-            cost = std::min(cost, std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
+            cost = std::min(cost, nanoseconds_of([&] { world->tick(); }));
             for (const double error : world->joint_errors()) {
                 sum += error;
                 ++count;

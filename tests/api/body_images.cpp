@@ -2,9 +2,9 @@
 // alike.
 #include <doctest/doctest.h>
 
-#include <cstring>
+#include <algorithm>
+#include <cmath>
 #include <random>
-#include <vector>
 
 #include "support/bodies.h"
 #include "support/builders.h"
@@ -15,19 +15,11 @@ namespace {
 
 constexpr double edge = 8388000; // metres: the end of positions
 
-std::vector<std::uint64_t> image_of(const World& world) {
-    std::size_t size = 0;
-    REQUIRE(lks_world_save_size(world, &size) == LKS_OK);
-    std::vector<std::uint64_t> image(size / 8);
-    REQUIRE(lks_world_save(world, image.data(), size, nullptr) == LKS_OK);
-    return image;
-}
-
 // Into a fresh world of the same settings; whether both have the same bits for so many ticks.
 void check_loads(World& world, const lks_world_def& def, int ticks) {
     World fresh(def);
-    const std::vector<std::uint64_t> image = image_of(world);
-    const lks_result loaded = lks_world_load(fresh, image.data(), 8 * image.size());
+    const Image image = world.save();
+    const lks_result loaded = lks_world_load(fresh, image.data(), image.size());
     INFO(fresh.message());
     REQUIRE(loaded == LKS_OK);
     REQUIRE(fresh.hash() == world.hash());

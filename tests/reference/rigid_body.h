@@ -76,7 +76,6 @@ struct MovingBody {
             load = found_load;
         }
     }
-    Vec velocity_at(const Vec& lever) const { return velocity + cross(spin, lever); }
 
     // What is kinematic keeps what it was given, to the bit: else it would turn.
     void normalise() {

@@ -310,8 +310,7 @@ private:
     }
 
     Levers levers_at_prediction(const Point& point, const Body& body_a, const Body& body_b) const {
-        return {body_a.predicted_orientation.matrix() * point.core_a + normal * radius_a,
-                body_b.predicted_orientation.matrix() * point.core_b - normal * radius_b};
+        return levers_at(point, body_a.predicted_orientation.matrix(), body_b.predicted_orientation.matrix());
     }
     Scalar closing(const Levers& levers, const Vec& velocity_a, const Vec& spin_a, const Vec& velocity_b,
                    const Vec& spin_b) const {
@@ -371,8 +370,11 @@ private:
     }
 
     Levers levers_now(const Point& point, const Body& body_a, const Body& body_b) const {
-        return {body_a.rotation * point.core_a + normal * radius_a,
-                body_b.rotation * point.core_b - normal * radius_b};
+        return levers_at(point, body_a.rotation, body_b.rotation);
+    }
+    Levers levers_at(const Point& point, const Matrix<Scalar>& turned_a,
+                     const Matrix<Scalar>& turned_b) const {
+        return {turned_a * point.core_a + normal * radius_a, turned_b * point.core_b - normal * radius_b};
     }
     static Vec apart(const Body& body_a, const Vec& on_a, const Body& body_b, const Vec& on_b) {
         return body_b.position - body_a.position + body_b.rotation * on_b - body_a.rotation * on_a;
@@ -382,7 +384,7 @@ private:
         return normal.dot(motion) + point.allowed;
     }
     Scalar closing_speed(const Levers& levers, const Body& body_a, const Body& body_b) const {
-        return -normal.dot(body_b.velocity_at(levers.b) - body_a.velocity_at(levers.a));
+        return closing(levers, body_a.velocity, body_a.spin, body_b.velocity, body_b.spin);
     }
 
     void add_rows(const Point& point, Scalar share, bool to_a, Move& move) const {

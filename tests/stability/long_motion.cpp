@@ -159,17 +159,14 @@ TEST_CASE("a ragdoll that is driven to and fro stays in one piece") {
     Jointed scene(world_def(60, 10));
     scene.add_ground(0.5, true);
     Humanoid humanoid;
+    lks_body_id bodies[LKS_HUMANOID_BONES];
     for (std::uint32_t i = 0; i < LKS_HUMANOID_BONES; ++i) {
         lks_body_def def = humanoid.bones[i].body;
         def.transform.position = def.transform.position + support::fixed(0, 0.2, 0);
-        def.filter.group = scene.add(humanoid.shapes[i], def);
+        bodies[i] = scene.id(scene.add(humanoid.shapes[i], def));
         if (i > 0) {
             scene.join(reference::joint_of_bone(humanoid.bones, i), humanoid.bones[i].parent, i);
         }
-    }
-    lks_body_id bodies[LKS_HUMANOID_BONES];
-    for (std::uint32_t i = 0; i < LKS_HUMANOID_BONES; ++i) {
-        bodies[i] = scene.id(i);
     }
     lks_transform standing[LKS_HUMANOID_BONES];
     REQUIRE(lks_ragdoll_pose(scene.world(), bodies, LKS_HUMANOID_BONES, standing) == LKS_OK);

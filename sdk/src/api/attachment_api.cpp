@@ -32,11 +32,11 @@ AttachmentDescription describe(const lks_attachment_def& def, const lks_world& w
 
 // What it holds at something that can't move is not held so already.
 lks_result check_contradictions(const lks_world& world, const lks_attachment_def& def,
-                                std::uint32_t movable) {
-    if (movable == 3 || def.compliance > 0 || def.break_force > 0) {
+                                const Attachment& made) {
+    if (made.constants.movable == 3 || !made.description.is_rigid()) {
         return LKS_OK;
     }
-    const bool near = movable == 1;
+    const bool near = made.constants.movable == 1;
     if (!near && def.kind == LKS_ATTACHMENT_TO_BODY) {
         return LKS_OK; // a body can turn about one point and hang between two
     }
@@ -86,8 +86,7 @@ lks_result lks_world_add_attachment(lks_world* world, const lks_attachment_def* 
                            Sentence() << "Neither side of the attachment can move: vertex " << def->vertex
                                       << " is pinned, and so is the other one, or its body is kinematic.");
     }
-    if (const lks_result result = check_contradictions(*world, *def, made.constants.movable);
-        result != LKS_OK) {
+    if (const lks_result result = check_contradictions(*world, *def, made); result != LKS_OK) {
         return result;
     }
     RigidScene& scene = world->rigid;

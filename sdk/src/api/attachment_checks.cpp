@@ -33,10 +33,6 @@ lks_result check_other_side(const lks_world& world, const lks_attachment_def& de
     return LKS_OK;
 }
 
-bool gives_way(const AttachmentDescription& d) {
-    return d.compliance > 0 || d.break_force > 0;
-}
-
 // Bits as of movable_sides: the sides of the attachment that are this particle.
 std::uint32_t sides_that_are(const AttachmentDescription& d, std::uint32_t object, std::uint32_t particle) {
     const bool near = d.object == object && d.particle == particle;
@@ -52,7 +48,7 @@ lks_result check_held_nowhere(const lks_world& world, lks_object_id object, std:
     const std::uint32_t particle = world.objects[object.index].object->asset().vertex_to_particle[vertex];
     for (std::uint32_t i = 0; i < scene.attachments.size(); ++i) {
         const AttachmentDescription& d = scene.attachments[i].description;
-        if (!scene.attachment_slots[i].used || gives_way(d)) {
+        if (!scene.attachment_slots[i].used || !d.is_rigid()) {
             continue;
         }
         const std::uint32_t here = sides_that_are(d, object.index, particle);

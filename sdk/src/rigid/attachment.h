@@ -22,6 +22,9 @@ struct AttachmentDescription {
     std::int64_t compliance;
     std::int64_t damping;
     std::int64_t break_force;
+
+    // It neither stretches nor breaks.
+    bool is_rigid() const { return compliance == 0 && break_force == 0; }
 };
 
 // What follows from the description and the masses.
