@@ -64,13 +64,15 @@ if "/dev/null/report" not in refused.stderr:
 
 with tempfile.TemporaryDirectory() as folder:
     drawn = shutil.which("gnuplot") is not None
-    parts = ("paper_spring", "paper_balloon", "spring")
+    parts = ("paper_spring", "paper_cloth", "paper_balloon", "spring")
     done = run(*parts, "--quick", "--report", folder, expected=0 if drawn else 1)
     if "accuracy: spring" not in done.stderr:
         sys.exit("There was no progress.")
     made = {path.name for path in pathlib.Path(folder).iterdir()}
     # Those of the paper's experiments are gnuplot's.
-    plots = {"paper-spring.svg", "paper-balloon.svg"} if drawn else set()
+    plots = {"paper-spring.svg", "paper-cloth.svg", "paper-balloon.svg"} if drawn else set()
+    if drawn and "the paper" not in pathlib.Path(folder, "paper-cloth.svg").read_text():
+        sys.exit("The plot of the paper's cloth has not the paper's figures.")
     sheets = {"spring.svg", "spring-projections.svg"}
     plots |= sheets
     if made != {"report.md", "results.json", "results.csv"} | plots:
@@ -78,6 +80,10 @@ with tempfile.TemporaryDirectory() as folder:
     text = pathlib.Path(folder, "report.md").read_text()
     if "## The paper's spring" not in text or "| fixed-point | 60.0 | 10 |" not in text:
         sys.exit("The report doesn't tell of the spring.")
+    rows = [row.split("|")[-2].strip() for row in text.splitlines()
+            if row.startswith("| fixed-point | 160 |")]
+    if rows != ["5.65"]:
+        sys.exit(f"The paper's cloth takes {rows} ms there, not 5.65.")
     results = json.loads(pathlib.Path(folder, "results.json").read_text())
     if len(results) < 50:
         sys.exit("The results are too few.")

@@ -121,28 +121,22 @@ void RigidScene::free_attachment(std::uint32_t index) {
 
 void RigidScene::follow_joints() {
     jointed.clear();
+    for (Body& body : bodies) {
+        body.jointed = false;
+    }
     for (std::size_t i = 0; i < joints.size(); ++i) {
+        if (!joint_slots[i].used) {
+            continue;
+        }
         const JointDescription& joint = joints[i].description;
-        if (joint_slots[i].used && joint.bodies_collide == 0) {
+        bodies[joint.body_a].jointed = bodies[joint.body_b].jointed = true;
+        if (joint.bodies_collide == 0) {
             const std::uint64_t low = std::min(joint.body_a, joint.body_b);
             const std::uint64_t high = std::max(joint.body_a, joint.body_b);
             jointed.push_reserved(low << 32 | high);
         }
     }
     std::sort(jointed.begin(), jointed.end());
-    mark_jointed();
-}
-
-void RigidScene::mark_jointed() {
-    for (Body& body : bodies) {
-        body.jointed = false;
-    }
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-        if (joint_slots[i].used) {
-            const JointDescription& joint = joints[i].description;
-            bodies[joint.body_a].jointed = bodies[joint.body_b].jointed = true;
-        }
-    }
 }
 
 void forget_attachments(RigidScene& scene, std::uint32_t index, bool of_object) {

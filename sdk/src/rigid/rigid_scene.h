@@ -148,10 +148,8 @@ struct RigidScene {
     void forget_contacts(std::uint32_t other);
     void free_joint(std::uint32_t index);
     void free_attachment(std::uint32_t index);
-    // After joints came or went.
+    // After joints came or went: which bodies have any, and which don't collide.
     void follow_joints();
-    // After joints or bodies were loaded: which bodies have any.
-    void mark_jointed();
     bool empty() const { return bodies.empty() && attachments.empty(); }
     // Whether a contact does anything in this substep, once its rows are made.
     bool acts(std::size_t contact) const { return contacts_act[contact] != 0; }

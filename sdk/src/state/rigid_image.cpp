@@ -321,10 +321,9 @@ void read_rigid(ByteReader& in, const RigidCounts& counts, const StepRate& rate,
     for (std::uint32_t i = 0; i < counts.joints; ++i) {
         others = loader.take_joint(i, rate) || others;
     }
+    // A joint whose bodies are others is another one, too.
     if (others) {
         scene.follow_joints();
-    } else {
-        scene.mark_jointed(); // bodies may be others
     }
     scene.memories.swap(scene.next_memories);
     for (const ContactMemory& memory : scene.memories) {
