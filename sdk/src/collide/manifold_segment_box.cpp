@@ -41,6 +41,13 @@ std::int64_t nearest_place(const LocalSegment& segment) {
     if (segment.half == 0) {
         return 0;
     }
+    // Mostly it is an end.
+    if (segment.slope(segment.half) < 0) {
+        return segment.half;
+    }
+    if (segment.slope(-segment.half) > 0) {
+        return -segment.half;
+    }
     std::int64_t places[8] = {-segment.half, segment.half};
     int count = 2;
     for (int axis = 0; axis < 3; ++axis) {
@@ -74,12 +81,6 @@ std::int64_t nearest_place(const LocalSegment& segment) {
     for (int i = 0; i < count; ++i) {
         last_down = slopes[i] < 0 ? i : last_down;
         first_up = slopes[i] > 0 && first_up == count ? i : first_up;
-    }
-    if (last_down == count - 1) {
-        return segment.half;
-    }
-    if (first_up == 0) {
-        return -segment.half;
     }
     if (last_down >= 0 && first_up == last_down + 1) {
         return crossing(last_down);

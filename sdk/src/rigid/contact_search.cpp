@@ -278,7 +278,7 @@ private:
         if ((!body.is_dynamic() && !other.is_dynamic()) || (!body.is_active() && !other.is_active())) {
             return false;
         }
-        if (std::binary_search(scene_.jointed.begin(), scene_.jointed.end(), std::uint64_t{a} << 32 | b)) {
+        if (scene_.are_jointed(a, b)) {
             return false;
         }
         return filters_meet(scene_.descriptions[a].filter, scene_.descriptions[b].filter);

@@ -7,19 +7,19 @@ namespace lks {
 RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_kernels)
     : body_slots(allocator), bodies(allocator), definitions(allocator), joint_slots(allocator),
       joints(allocator), memories(allocator), attachment_slots(allocator), attachments(allocator),
-      descriptions(allocator), jointed(allocator), ticks(allocator), collider_bodies(allocator),
-      pieces(allocator), piece_starts(allocator), travels(allocator), overlaps(allocator), boxed(allocator),
-      pairs(allocator), sorting(allocator), found(allocator), found_order(allocator), contacts(allocator),
-      contact_points(allocator), contacts_act(allocator), contact_moves(allocator), next_memories(allocator),
-      islands(allocator), tree_roots(allocator), tree_links(allocator), tree_bodies(allocator),
-      tree_joints(allocator), articulated(allocator), trees(allocator), held_joints(allocator),
-      figures(allocator), figure_parts(allocator), figure_ranges(allocator), figure_bundles(allocator),
-      wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator), figure_shares(allocator),
-      substep_motions(allocator), predicted_speeds(allocator), figure_masses(allocator),
-      figures_changed(allocator), strained_figures(allocator), figure_shifts(allocator),
-      figure_pairs(allocator), island_rests(allocator), is_coupled(allocator), coupled(allocator),
-      object_pairs(allocator), object_impulses(allocator), held(allocator), loaded_bodies(allocator),
-      loaded_joints(allocator), tree_kernels_(tree_kernels) {}
+      descriptions(allocator), jointed(allocator), jointed_starts(allocator), ticks(allocator),
+      collider_bodies(allocator), pieces(allocator), piece_starts(allocator), travels(allocator),
+      overlaps(allocator), boxed(allocator), pairs(allocator), sorting(allocator), found(allocator),
+      found_order(allocator), contacts(allocator), contact_points(allocator), contacts_act(allocator),
+      contact_moves(allocator), next_memories(allocator), islands(allocator), tree_roots(allocator),
+      tree_links(allocator), tree_bodies(allocator), tree_joints(allocator), articulated(allocator),
+      trees(allocator), held_joints(allocator), figures(allocator), figure_parts(allocator),
+      figure_ranges(allocator), figure_bundles(allocator), wide_bodies(allocator), wide_joints(allocator),
+      shared_contacts(allocator), figure_shares(allocator), substep_motions(allocator),
+      predicted_speeds(allocator), figure_masses(allocator), figures_changed(allocator),
+      strained_figures(allocator), figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator),
+      is_coupled(allocator), coupled(allocator), object_pairs(allocator), object_impulses(allocator),
+      held(allocator), loaded_bodies(allocator), loaded_joints(allocator), tree_kernels_(tree_kernels) {}
 
 // A bundle takes the same for any number of trees.
 std::size_t RigidScene::wide_room(std::size_t count) const {
@@ -37,8 +37,9 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         descriptions.reserve(body_count) && ticks.reserve(body_count) &&
         collider_bodies.reserve(collider_count) && pieces.reserve(body_count * LKS_MAX_BODY_SHAPES) &&
         piece_starts.reserve(body_count) && travels.reserve(body_count) &&
-        overlaps.reserve(static_cast<std::uint32_t>(boxes)) && boxed.reserve(boxes) &&
-        pairs.reserve(pair_capacity(body_count)) && contacts.reserve(contact_capacity(body_count)) &&
+        jointed_starts.reserve(body_count + 1) && overlaps.reserve(static_cast<std::uint32_t>(boxes)) &&
+        boxed.reserve(boxes) && pairs.reserve(pair_capacity(body_count)) &&
+        contacts.reserve(contact_capacity(body_count)) &&
         contact_points.reserve(greatest_point_count * contact_capacity(body_count)) &&
         contacts_act.reserve(contact_capacity(body_count)) && contact_moves.reserve(body_count + 1) &&
         found.reserve(contact_capacity(body_count)) && found_order.reserve(contact_capacity(body_count)) &&
@@ -137,6 +138,23 @@ void RigidScene::follow_joints() {
         }
     }
     std::sort(jointed.begin(), jointed.end());
+    jointed_starts.clear();
+    std::uint32_t next = 0;
+    for (std::uint32_t body = 0; body <= bodies.size() && !bodies.empty(); ++body) {
+        while (next < jointed.size() && jointed[next] >> 32 < body) {
+            ++next;
+        }
+        jointed_starts.push_reserved(next);
+    }
+}
+
+bool RigidScene::are_jointed(std::uint32_t a, std::uint32_t b) const {
+    // Bodies that came later have no joints yet.
+    if (a + 1 >= jointed_starts.size()) {
+        return false;
+    }
+    const std::uint64_t* const end = jointed.begin() + jointed_starts[a + 1];
+    return std::find(jointed.begin() + jointed_starts[a], end, std::uint64_t{a} << 32 | b) != end;
 }
 
 void forget_attachments(RigidScene& scene, std::uint32_t index, bool of_object) {

@@ -73,8 +73,10 @@ struct RigidScene {
     Array<Attachment> attachments;
 
     Array<BodyDescription> descriptions; // derived, by body
-    // Derived: body a << 32 | body b > a of joints whose bodies don't collide, ascending.
+    // Derived: body a << 32 | body b > a of joints whose bodies don't collide, ascending, and by body a where
+    // its own begin.
     Array<std::uint64_t> jointed;
+    Array<std::uint32_t> jointed_starts;
 
     // Of a tick.
     Array<BodyTick> ticks;             // by body
@@ -150,6 +152,8 @@ struct RigidScene {
     void free_attachment(std::uint32_t index);
     // After joints came or went: which bodies have any, and which don't collide.
     void follow_joints();
+    // By a joint whose bodies don't collide; a < b.
+    bool are_jointed(std::uint32_t a, std::uint32_t b) const;
     bool empty() const { return bodies.empty() && attachments.empty(); }
     // Whether a contact does anything in this substep, once its rows are made.
     bool acts(std::size_t contact) const { return contacts_act[contact] != 0; }
