@@ -41,7 +41,7 @@ std::int64_t nearest_place(const LocalSegment& segment) {
     if (segment.half == 0) {
         return 0;
     }
-    // Mostly it is an end.
+    // Mostly it is an end. Where it is not, the slope changes its sign between two of the places below.
     if (segment.slope(segment.half) < 0) {
         return segment.half;
     }

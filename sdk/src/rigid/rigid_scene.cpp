@@ -139,8 +139,11 @@ void RigidScene::follow_joints() {
     }
     std::sort(jointed.begin(), jointed.end());
     jointed_starts.clear();
+    if (bodies.empty()) {
+        return; // there may be no room for starts
+    }
     std::uint32_t next = 0;
-    for (std::uint32_t body = 0; body <= bodies.size() && !bodies.empty(); ++body) {
+    for (std::uint32_t body = 0; body <= bodies.size(); ++body) {
         while (next < jointed.size() && jointed[next] >> 32 < body) {
             ++next;
         }
