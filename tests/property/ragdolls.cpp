@@ -233,11 +233,11 @@ TEST_CASE("thirty ragdolls that fall into a pit stay in one piece and fall aslee
     }
 }
 
-// Feet under chests, which nothing frees as long as only they are pushed: of these layouts the first was
-// awake after 15 s, and others ended with 4 to 10 mm.
+// Feet under chests, which nothing frees as long as only they are pushed: where figures are not moved as
+// wholes, the first of these layouts is awake after 10 s, and the others end with 5 to 10 mm.
 TEST_CASE("piles in which feet are jammed come apart and fall asleep, too" *
           doctest::skip(support::sanitised)) {
-    for (const std::uint32_t seed : {9u, 32u, 38u, 47u, 48u}) {
+    for (const std::uint32_t seed : {16u, 21u, 33u, 44u, 48u}) {
         World world(world_def(60, 8));
         add_pit(world);
         Ragdolls ragdolls(world);
@@ -254,7 +254,7 @@ TEST_CASE("piles in which feet are jammed come apart and fall asleep, too" *
         INFO("layout " << seed << ": asleep after " << tick / 60.0 << " s, " << 1e3 * overlap
                        << " mm of overlap");
         CHECK(lks_world_awake_body_count(world) == 0);
-        CHECK(overlap < 2.5e-3); // of 64 layouts 60 are below 2 mm, the worst has 2.6
+        CHECK(overlap < 2e-3); // of 192 layouts 171 are, the worst has 4.9
         CHECK(ragdolls.worst() < 5e-3);
         CHECK(ragdolls.limit() < 5);
     }

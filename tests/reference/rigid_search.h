@@ -96,7 +96,11 @@ private:
         const Scalar motion = sum(body_b.velocity - body_a.velocity) / tick_rate + turning;
         const Piece<Scalar> piece_a = piece_of(contact.a, contact.shape_a, body_a, body_a.position);
         const Piece<Scalar> piece_b = piece_of(contact.b, contact.shape_b, body_b, body_a.position);
-        if (are_apart(piece_a, piece_b, motion + near)) {
+        const bool keeps = keeps_side(body_a, body_b);
+        // Where they may be turned to by what they hit on their way.
+        const Scalar aside = keeps ? (motion - turning) / 4 : 0;
+        if (pass_by(piece_a, piece_b, (body_b.velocity - body_a.velocity) * (1 / tick_rate),
+                    turning + aside)) {
             return false;
         }
         Manifold<Scalar> manifold = touch(piece_a, piece_b, motion + near, {});
@@ -116,7 +120,6 @@ private:
         contact.radius_a = piece_a.radius;
         contact.radius_b = piece_b.radius;
         set_surface(contact);
-        const bool keeps = keeps_side(body_a, body_b);
         const std::vector<Point> old = before != nullptr ? before->memory(keeps) : std::vector<Point>{};
         const Vec side = keeps && !old.empty() ? before->normal : Vec{};
         const bool passed = is_against(manifold.normal, side);
@@ -144,7 +147,9 @@ private:
         const Scalar margin = (sum(a.velocity) + sum(b.velocity) + turning) / substep_rate + near;
         Manifold<Scalar> manifold(margin, 0);
         manifold.normal = contact.normal;
-        if (!are_apart(piece_a, piece_b, margin)) {
+        const Scalar aside = keeps_side(a, b) ? sum(b.velocity - a.velocity) / 4 : 0;
+        if (!pass_by(piece_a, piece_b, (b.velocity - a.velocity) * (1 / substep_rate),
+                     (turning + aside) / substep_rate)) {
             manifold = touch(piece_a, piece_b, margin, keeps_side(a, b) ? side : Vec{});
         }
         contact.take_manifold(manifold, a, b, std::vector<Point>(contact.points));
@@ -182,8 +187,29 @@ private:
     static Scalar reach(const Piece<Scalar>& piece) {
         return piece.radius + piece.half_length + sum(piece.half_extents);
     }
-    static bool are_apart(const Piece<Scalar>& a, const Piece<Scalar>& b, Scalar margin) {
-        return b.kind != LKS_SHAPE_PLANE && greatest(b.centre - a.centre) > reach(a) + reach(b) + margin;
+    // Half its size along the axes of the world.
+    static Vec extent(const Piece<Scalar>& piece) {
+        const Vec half = piece.half_extents + Vec{0, piece.half_length, 0};
+        const Vec along[3] = {piece.axes.column(0) * half.x, piece.axes.column(1) * half.y,
+                              piece.axes.column(2) * half.z};
+        return {piece.radius + std::abs(along[0].x) + std::abs(along[1].x) + std::abs(along[2].x),
+                piece.radius + std::abs(along[0].y) + std::abs(along[1].y) + std::abs(along[2].y),
+                piece.radius + std::abs(along[0].z) + std::abs(along[1].z) + std::abs(along[2].z)};
+    }
+    // Outside of each other along an axis of the world while b goes this way, and both turn by so much.
+    static bool pass_by(const Piece<Scalar>& a, const Piece<Scalar>& b, const Vec& way, Scalar turning) {
+        if (b.kind == LKS_SHAPE_PLANE) {
+            return false;
+        }
+        const Vec between = b.centre - a.centre;
+        const Vec room = extent(a) + extent(b);
+        const auto outside = [&](Scalar begin, Scalar change, Scalar half) {
+            const Scalar end = begin + change;
+            const Scalar most = half + turning + near;
+            return std::min(begin, end) > most || std::max(begin, end) < -most;
+        };
+        return outside(between.x, way.x, room.x) || outside(between.y, way.y, room.y) ||
+               outside(between.z, way.z, room.z);
     }
 
     static Scalar thickness(const Piece<Scalar>& piece) {

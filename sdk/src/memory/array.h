@@ -103,6 +103,8 @@ public:
         std::memmove(static_cast<void*>(data_ + index), data_ + index + 1, (size_ - index - 1) * sizeof(T));
         --size_;
     }
+    // By values that are not set yet, within the capacity.
+    void extend_reserved(std::size_t count) { size_ += count; }
     void clear() { size_ = 0; }
     void free() {
         if (data_ != nullptr) {

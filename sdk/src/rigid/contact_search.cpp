@@ -7,6 +7,7 @@
 #include "collide/plane_motion.h"
 #include "collide/saturation.h"
 #include "memory/sort_numbers.h"
+#include "rigid/piece_bounds.h"
 #include "rigid/sleep.h"
 #include "threads/blocks.h"
 
@@ -51,47 +52,22 @@ Piece piece_of_collider(const Body& body, const ColliderState& collider, const V
 // Who comes more slowly than this wakes nobody by being near: a centimetre a second.
 constexpr std::int64_t gentle_speed = (std::int64_t{1} << world_fraction_bits) / 100;
 
-std::int64_t thickness(const Piece& piece) {
-    if (piece.kind == LKS_SHAPE_PLANE) {
-        return INT64_MAX;
-    }
-    if (piece.kind == LKS_SHAPE_BOX) {
-        return std::min({piece.half_extents.x, piece.half_extents.y, piece.half_extents.z});
-    }
-    return piece.radius;
-}
-
-std::int64_t reach(const Piece& piece) {
-    if (piece.kind == LKS_SHAPE_BOX) {
-        return piece.half_extents.x + piece.half_extents.y + piece.half_extents.z;
-    }
-    return piece.radius + piece.half_length;
-}
-
-// Half the size along the axes of the world.
-Vec3 extent(const Piece& piece) {
-    const auto share = [](std::int32_t c, std::int64_t length) {
-        return fixed::scale_component(c < 0 ? -c : c, length) + 1;
+// A velocity over one of n parts of a second, rounded away from zero.
+Vec3 way_in(const Vec3& velocity, std::int64_t n) {
+    const auto along = [n](std::int64_t v) {
+        return fixed::saturating_add(v / n, v > 0 ? 1 : v < 0 ? -1 : 0);
     };
-    const auto along = [&](int row) {
-        const std::int32_t(&c)[3] = piece.axes.m[row];
-        if (piece.kind == LKS_SHAPE_BOX) {
-            return share(c[0], piece.half_extents.x) + share(c[1], piece.half_extents.y) +
-                   share(c[2], piece.half_extents.z);
-        }
-        return piece.radius + (piece.half_length == 0 ? 0 : share(c[1], piece.half_length));
-    };
-    return {along(0), along(1), along(2)};
+    return {along(velocity.x), along(velocity.y), along(velocity.z)};
 }
 
-// Further than `margin` along an axis of the world.
-bool apart(const Piece& a, const Piece& b, std::int64_t margin) {
-    if (b.kind == LKS_SHAPE_PLANE) {
-        return false;
-    }
-    const std::int64_t room = reach(a) + reach(b) + margin;
-    const Vec3 d = b.centre - a.centre;
-    return d.x > room || d.x < -room || d.y > room || d.y < -room || d.z > room || d.z < -room;
+Vec3 room_around(const Vec3& extent_a, const Vec3& extent_b, std::int64_t more) {
+    return extent_a + extent_b + Vec3{more, more, more};
+}
+
+// How far what it hits on its way may turn it aside. (Figures that are thrown at a fence pass it more often
+// without that.)
+std::int64_t aside(std::int64_t way) {
+    return way / 4;
 }
 
 // Where its bodies are now, with what it pushed before; `side` is the normal that it had.
@@ -112,10 +88,15 @@ void find_points(const lks_world& world, Contact& contact, const Direction& side
     const auto n = static_cast<std::int64_t>(world.rate.substeps_per_second);
     const std::int64_t radius_b = with_collider ? reach(piece_b) : scene.descriptions[index].radius;
     const std::int64_t motion = (greatest_speed(a, description.radius) + greatest_speed(b, radius_b)) / n;
+    const std::int64_t spins = (spin_speed(a, description.radius) + spin_speed(b, radius_b)) / n;
     Manifold manifold;
     manifold.normal = contact.normal();
     manifold.count = 0;
-    if (!apart(piece_a, piece_b, motion + near_distance)) {
+    const Vec3 way = way_in(saturating_subtract(b.velocity, a.velocity), n);
+    const std::int64_t room = spins + near_distance + (keeps_side(a, b) ? aside(sum_of_magnitudes(way)) : 0);
+    if (piece_b.kind == LKS_SHAPE_PLANE ||
+        !passes_by(saturating_subtract(piece_b.centre, piece_a.centre), way,
+                   room_around(extent(piece_a), extent(piece_b), room))) {
         collide(piece_a, piece_b, motion + near_distance, keeps_side(a, b) ? side : no_side, manifold);
     }
     ContactPush old_pushes[greatest_point_count];
@@ -148,40 +129,67 @@ private:
     std::int64_t per_tick(std::int64_t speed) const {
         return speed / static_cast<std::int64_t>(world_.rate.ticks_per_second);
     }
+    Vec3 way_in_tick(const Body& body) const { return way_in(body.velocity, world_.rate.ticks_per_second); }
+    // Of b against a.
+    Vec3 way_between(std::uint32_t a, std::uint32_t other) const {
+        const Vec3 way =
+            other >= other_is_collider ? way_in_tick(other_body(scene_, other)) : scene_.ways[other];
+        return saturating_subtract(way, scene_.ways[a]);
+    }
 
-    // Its shapes around its centre of mass, and how far its spin carries them.
+    // Its shapes around its centre of mass, and how far they go beside its velocity.
     void place_pieces() {
         scene_.pieces.clear();
+        scene_.piece_extents.clear();
         scene_.piece_starts.clear();
         scene_.travels.clear();
+        scene_.ways.clear();
         for (std::uint32_t i = 0; i < scene_.bodies.size(); ++i) {
             const Body& body = scene_.bodies[i];
             const BodyDescription& description = scene_.descriptions[i];
             scene_.piece_starts.push_reserved(static_cast<std::uint32_t>(scene_.pieces.size()));
             for (std::uint32_t shape = 0; shape < description.shape_count; ++shape) {
-                scene_.pieces.push_reserved(piece_of_body(body, description.shapes[shape], body.position));
+                const Piece placed = piece_of_body(body, description.shapes[shape], body.position);
+                scene_.pieces.push_reserved(placed);
+                scene_.piece_extents.push_reserved(extent(placed));
             }
-            scene_.travels.push_reserved(per_tick(spin_speed(body, description.radius)));
+            scene_.travels.push_reserved(per_tick(spin_speed(body, description.radius)) + fall(i));
+            scene_.ways.push_reserved(way_in_tick(body));
         }
+    }
+
+    // What gravity adds to its way in a tick, beyond what is near: with few ticks a second.
+    std::int64_t fall(std::uint32_t index) const {
+        if (!scene_.bodies[index].is_awake()) {
+            return 0;
+        }
+        const std::int64_t step = sum_of_magnitudes(scene_.ticks[index].gravity_step);
+        const std::int64_t way = per_tick(fixed::saturate_to_int64(
+            fixed::multiply_signed(step, static_cast<std::int64_t>(world_.rate.substeps))));
+        return std::max<std::int64_t>(0, way - near_distance);
     }
 
     const Piece& piece(std::uint32_t body, std::uint32_t shape) const {
         return scene_.pieces[scene_.piece_starts[body] + shape];
     }
+    const Vec3& piece_extent(std::uint32_t body, std::uint32_t shape) const {
+        return scene_.piece_extents[scene_.piece_starts[body] + shape];
+    }
 
-    // A body's box in this tick, with some room.
+    // A body's box in this tick, with half of the room of a pair.
     Box box_of_body(std::uint32_t index) const {
         const Body& body = scene_.bodies[index];
-        const std::int64_t room =
-            near_distance + scene_.travels[index] + per_tick(sum_of_magnitudes(body.velocity));
+        const Vec3& way = scene_.ways[index];
+        const std::int64_t room = near_distance / 2 + scene_.travels[index] + aside(sum_of_magnitudes(way));
         Box box{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
         for (std::uint32_t i = 0; i < scene_.descriptions[index].shape_count; ++i) {
-            const Vec3 reach = extent(piece(index, i)) + Vec3{room, room, room};
-            const Vec3& c = piece(index, i).centre;
-            include(box, body.position + c, reach);
+            const Vec3 reach = piece_extent(index, i) + Vec3{room, room, room};
+            const Vec3 centre = body.position + piece(index, i).centre;
+            include(box, centre, reach);
+            include(box, saturating_add(centre, way), reach);
             if (!body.is_dynamic()) {
                 // However it turns on its way.
-                const std::int64_t radius = scene_.descriptions[index].radius + near_distance;
+                const std::int64_t radius = scene_.descriptions[index].radius + near_distance / 2;
                 include(box, body.position, {radius, radius, radius});
                 include(box, body.target_position, {radius, radius, radius});
             }
@@ -229,7 +237,8 @@ private:
             }
             return;
         }
-        const std::int64_t room = world_from_coordinate(bounding_radius(collider.shape, 0)) + 1;
+        const std::int64_t room =
+            world_from_coordinate(bounding_radius(collider.shape, 0)) + 1 + near_distance / 2;
         const Vec3& p = collider.position;
         Box box{{p.x - room, p.y - room, p.z - room}, {p.x + room, p.y + room, p.z + room}};
         include(box, collider.target_position, {room, room, room});
@@ -240,9 +249,8 @@ private:
     bool near_plane(std::uint32_t index, std::uint32_t collider_index) const {
         const ColliderState& collider = world_.colliders[collider_index].collider;
         const Body& body = scene_.bodies[index];
-        const std::int64_t radius = scene_.descriptions[index].radius;
-        const std::int64_t room =
-            radius + near_distance + scene_.travels[index] + per_tick(sum_of_magnitudes(body.velocity));
+        const std::int64_t room = scene_.descriptions[index].radius + near_distance + scene_.travels[index] +
+                                  sum_of_magnitudes(scene_.ways[index]);
         const auto below = [&](const fixed::Rotation& rotation, const Vec3& position) {
             const fixed::Int128 height = height_above_plane(plane_normal(fixed::to_matrix(rotation)),
                                                             position, body.position, Vec3{0, 0, 0});
@@ -326,8 +334,11 @@ private:
         const bool with_collider = other >= other_is_collider;
         const std::uint32_t shapes_b = with_collider ? 1 : scene_.descriptions[other].shape_count;
         // The motion of one against the other in this tick.
-        const std::int64_t motion = travel_along(body_a, body_b) + scene_.travels[a] +
-                                    (with_collider ? collider_turns(body_b, other) : scene_.travels[other]);
+        const std::int64_t spins =
+            scene_.travels[a] + (with_collider ? collider_turns(body_b, other) : scene_.travels[other]);
+        const Vec3 way = way_between(a, other);
+        const std::int64_t travel = sum_of_magnitudes(way);
+        const std::int64_t room = near_distance + spins + (keeps_side(body_a, body_b) ? aside(travel) : 0);
         const Vec3 between = body_b.position - body_a.position;
         for (std::uint32_t i = 0; i < description_a.shape_count; ++i) {
             for (std::uint32_t j = 0; j < shapes_b; ++j) {
@@ -336,12 +347,15 @@ private:
                 if (!with_collider) {
                     piece_b.centre = piece_b.centre + between;
                 }
-                if (apart(piece(a, i), piece_b, motion + near_distance)) {
+                if (piece_b.kind != LKS_SHAPE_PLANE &&
+                    passes_by(saturating_subtract(piece_b.centre, piece(a, i).centre), way,
+                              room_around(piece_extent(a, i),
+                                          with_collider ? extent(piece_b) : piece_extent(other, j), room))) {
                     continue;
                 }
-                FoundContact found{};
+                FoundContact found;
                 found.key = {a, other, i * LKS_MAX_BODY_SHAPES + j};
-                if (touches(piece(a, i), piece_b, motion, found)) {
+                if (touches(piece(a, i), piece_b, way, spins, found)) {
                     use(found);
                 }
             }
@@ -378,16 +392,21 @@ private:
                            [](const ManifoldPoint& point) { return point.separation < -sticking_depth; });
     }
 
-    bool touches(const Piece& a, const Piece& b, std::int64_t motion, FoundContact& found) const {
+    // `way`: of b against a in this tick, `spins`: how far they turn each other's points at most.
+    static bool touches(const Piece& a, const Piece& b, const Vec3& way, std::int64_t spins,
+                        FoundContact& found) {
+        const std::int64_t motion = sum_of_magnitudes(way) + spins;
         // One look a tick is enough where neither passes the other's middle in it, and where what is inside
         // the other does not turn out of it.
         const bool fast = motion > fixed::saturating_add(thickness(a), thickness(b));
         found.radius_a = a.radius;
         found.radius_b = b.radius;
+        found.manifold.normal = {0, 0, 0};
+        found.manifold.count = 0;
         collide(a, b, motion + near_distance, no_side, found.manifold);
         // Boxes beside each other show no points, and may yet meet at their edges.
         const bool unclear = fast && found.manifold.count == 0;
-        drop_what_stays_apart(found.manifold, found.key, motion);
+        drop_what_stays_apart(found.manifold, way, spins);
         found.fast = fast;
         found.every_substep = fast || sticks(found.manifold);
         return found.manifold.count != 0 || unclear;
@@ -430,9 +449,7 @@ private:
         const bool passed = against(found.manifold.normal, side);
         contact.every_substep = found.every_substep || passed;
         const std::size_t first_point = scene_.contact_points.size();
-        // Within its room.
-        static_cast<void>(
-            scene_.contact_points.resize(first_point + point_room(contact.every_substep, found.manifold)));
+        scene_.contact_points.extend_reserved(point_room(contact.every_substep, found.manifold));
         contact.points = scene_.contact_points.begin() + first_point;
         take_manifold(contact, old_pushes, found.manifold, body_a, body_b);
         if (passed) {
@@ -465,25 +482,15 @@ private:
     }
 
     // Of the motion that the search allowed for, only what closes the gap counts.
-    void drop_what_stays_apart(Manifold& manifold, const ContactKey& key, std::int64_t motion) const {
-        const Body& a = scene_.bodies[key.body_a];
-        const Body& b = other_body(scene_, key.other);
-        const std::int64_t closing =
-            std::max<std::int64_t>(0, -fixed::dot(manifold.normal, b.velocity - a.velocity) /
-                                          static_cast<std::int64_t>(world_.rate.ticks_per_second));
-        const std::int64_t spinning = motion - travel_along(a, b);
+    static void drop_what_stays_apart(Manifold& manifold, const Vec3& way, std::int64_t spins) {
+        const std::int64_t closing = std::max<std::int64_t>(0, -fixed::dot(manifold.normal, way));
         std::uint32_t kept = 0;
         for (std::uint32_t i = 0; i < manifold.count; ++i) {
-            if (manifold.points[i].separation <= near_distance + closing + spinning) {
+            if (manifold.points[i].separation <= near_distance + closing + spins) {
                 manifold.points[kept++] = manifold.points[i];
             }
         }
         manifold.count = kept;
-    }
-
-    std::int64_t travel_along(const Body& a, const Body& b) const {
-        return sum_of_magnitudes(b.velocity - a.velocity) /
-               static_cast<std::int64_t>(world_.rate.ticks_per_second);
     }
 
     lks_world& world_;

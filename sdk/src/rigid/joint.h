@@ -85,7 +85,11 @@ struct JointConstants {
     std::int64_t swing_limit;  // World, radians
     std::int64_t swing_limit_z;
     fixed::Direction across_a[2]; // local x and z of the frame of a, in the body's axes
-    SinCos half_min;              // of half the least twist
+    // What each component of how b has turned in a, conj(qa) qb, adds to the sine and to the cosine of half
+    // the twist of the frames, times what is left of the swing.
+    std::int32_t twist_sine[4];
+    std::int32_t twist_cosine[4];
+    SinCos half_min; // of half the least twist
     SinCos half_max;
     std::int64_t twist_min; // World, radians
     std::int64_t twist_max;

@@ -39,6 +39,26 @@ void set_swing(JointConstants& c, const JointDescription& d) {
     c.across_a[1] = frame_axis(d.frame_a, 2);
 }
 
+void set_twist(JointConstants& c, const JointDescription& d) {
+    c.twist_limited = (d.kind == LKS_JOINT_BALL || d.kind == LKS_JOINT_HINGE) &&
+                      (d.twist_min > -half_circle_degrees || d.twist_max < half_circle_degrees);
+    constexpr fixed::Rotation units[4] = {{fixed::rotation_one, 0, 0, 0},
+                                          {0, fixed::rotation_one, 0, 0},
+                                          {0, 0, fixed::rotation_one, 0},
+                                          {0, 0, 0, fixed::rotation_one}};
+    for (int i = 0; i < 4; ++i) {
+        const fixed::Rotation turned =
+            fixed::multiply(fixed::conjugate(d.frame_a), fixed::multiply(units[i], d.frame_b));
+        c.twist_sine[i] = turned.y;
+        c.twist_cosine[i] = turned.w;
+    }
+    // One fraction bit more is half the angle.
+    c.half_min = sine_and_cosine(d.twist_min, world_fraction_bits + 1);
+    c.half_max = sine_and_cosine(d.twist_max, world_fraction_bits + 1);
+    c.twist_min = to_radians(d.twist_min);
+    c.twist_max = to_radians(d.twist_max);
+}
+
 // `greater` is the greater inverse mass.
 void set_forces(JointConstants& c, const JointDescription& d, const fixed::Scaled& greater,
                 const StepRate& rate) {
@@ -119,13 +139,7 @@ JointConstants make_joint_constants(const JointDescription& d, const Body& a, co
     c.axis_a = frame_axis(d.frame_a, 1);
     c.axis_b = frame_axis(d.frame_b, 1);
     set_swing(c, d);
-    c.twist_limited = (d.kind == LKS_JOINT_BALL || d.kind == LKS_JOINT_HINGE) &&
-                      (d.twist_min > -half_circle_degrees || d.twist_max < half_circle_degrees);
-    // One fraction bit more is half the angle.
-    c.half_min = sine_and_cosine(d.twist_min, world_fraction_bits + 1);
-    c.half_max = sine_and_cosine(d.twist_max, world_fraction_bits + 1);
-    c.twist_min = to_radians(d.twist_min);
-    c.twist_max = to_radians(d.twist_max);
+    set_twist(c, d);
     const auto reach_of = [](const Body& body) { return body.scale - body.inverse_shift / 2; };
     c.reach = !a.is_dynamic()   ? reach_of(b)
               : !b.is_dynamic() ? reach_of(a)

@@ -103,9 +103,24 @@ void hold_swing(Joint& joint, Body& a, Body& b) {
     row.apply(-more);
 }
 
+// Sine and cosine of half the twist, times what is left of the swing: y and w of the rotation from a's frame
+// to b's. The cosine is not negative.
+SinCos half_twist(const Joint& joint, const Body& a, const Body& b) {
+    const fixed::Rotation q = fixed::multiply(fixed::conjugate(narrow(a.orientation)), narrow(b.orientation));
+    const auto part = [&q](const std::int32_t(&of)[4]) {
+        const std::int64_t sum = std::int64_t{of[0]} * q.x + std::int64_t{of[1]} * q.y +
+                                 std::int64_t{of[2]} * q.z + std::int64_t{of[3]} * q.w;
+        return static_cast<std::int32_t>(fixed::shift_right_rounded(sum, 30));
+    };
+    const std::int32_t sine = part(joint.constants.twist_sine);
+    const std::int32_t cosine = part(joint.constants.twist_cosine);
+    return cosine < 0 ? SinCos{-sine, -cosine} : SinCos{sine, cosine};
+}
+
 // Where the swing is a half turn.
-bool has_no_twist(const fixed::Rotation& q) {
-    return std::int64_t{q.y} * q.y + std::int64_t{q.w} * q.w < std::int64_t{1} << 50;
+bool has_no_twist(const SinCos& half) {
+    return std::int64_t{half.sine} * half.sine + std::int64_t{half.cosine} * half.cosine < std::int64_t{1}
+                                                                                               << 50;
 }
 
 // What turns b about the middle of both axes twists it by more, the further it has swung: by one over the
@@ -133,20 +148,22 @@ bool find_twist_axis(const Joint& joint, const Body& a, const Body& b, Twist& tw
     return any;
 }
 
-// Half its angle is that of (q.w, q.y). False: there is none.
-bool measure_twist(const Joint& joint, const Body& a, const Body& b, const fixed::Rotation& q, Twist& twist) {
-    twist.angle = 2 * fixed::angle_of(q.y, q.w);
-    return !has_no_twist(q) && find_twist_axis(joint, a, b, twist);
+// False: there is none.
+bool measure_twist(const Joint& joint, const Body& a, const Body& b, const SinCos& half, Twist& twist) {
+    twist.angle = 2 * fixed::angle_of(half.sine, half.cosine);
+    return !has_no_twist(half) && find_twist_axis(joint, a, b, twist);
 }
 
 // Where the twist is certainly within its limits nobody need know it.
 bool find_twist(const Joint& joint, const Body& a, const Body& b, Twist& twist) {
-    const fixed::Rotation q = relative_rotation(joint, a, b);
+    const SinCos half = half_twist(joint, a, b);
     const JointConstants& c = joint.constants;
     // sin(twist/2 − limit/2), times what is left of the swing.
-    const std::int64_t above = std::int64_t{q.y} * c.half_max.cosine - std::int64_t{q.w} * c.half_max.sine;
-    const std::int64_t below = std::int64_t{q.w} * c.half_min.sine - std::int64_t{q.y} * c.half_min.cosine;
-    return (above > 0 || below > 0 || joint.twist_push != 0) && measure_twist(joint, a, b, q, twist);
+    const std::int64_t above =
+        std::int64_t{half.sine} * c.half_max.cosine - std::int64_t{half.cosine} * c.half_max.sine;
+    const std::int64_t below =
+        std::int64_t{half.cosine} * c.half_min.sine - std::int64_t{half.sine} * c.half_min.cosine;
+    return (above > 0 || below > 0 || joint.twist_push != 0) && measure_twist(joint, a, b, half, twist);
 }
 
 // In a substep what was exceeded when it began stays so.
@@ -326,7 +343,7 @@ std::uint32_t limit_rows(const Joint& joint, const Body& a, const Body& b, bool 
                          in_substep ? joint.swing_push : 0};
     }
     Twist twist{};
-    if (c.twist_limited && measure_twist(joint, a, b, relative_rotation(joint, a, b), twist)) {
+    if (c.twist_limited && measure_twist(joint, a, b, half_twist(joint, a, b), twist)) {
         const std::int64_t push = in_substep ? joint.twist_push : 0;
         const AllowedTwist allowed = allowed_twist(joint, in_substep);
         const std::int64_t to_most = twist.turn_for(allowed.most - twist.angle);

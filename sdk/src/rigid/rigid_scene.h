@@ -82,8 +82,10 @@ struct RigidScene {
     Array<BodyTick> ticks;             // by body
     Array<Body> collider_bodies;       // colliders as bodies of infinite mass, by slot
     Array<Piece> pieces;               // of all bodies, around their centres of mass
+    Array<fixed::Vec3> piece_extents;  // of each: half its size along the axes of the world
     Array<std::uint32_t> piece_starts; // by body, into pieces
-    Array<std::int64_t> travels;       // by body: how far any point of it goes in a tick at most, by its spin
+    Array<fixed::Vec3> ways;           // by body: where its velocity takes it in a tick
+    Array<std::int64_t> travels;       // by body: how far any point of it goes beside that at most
     Overlaps overlaps;
     Array<std::uint32_t> boxed;   // by box: body, or collider | other_is_collider
     Array<std::uint64_t> pairs;   // body a << 32 | other, ascending
