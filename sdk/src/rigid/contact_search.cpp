@@ -92,12 +92,13 @@ void find_points(const lks_world& world, Contact& contact, const Direction& side
     Manifold manifold;
     manifold.normal = contact.normal();
     manifold.count = 0;
+    const bool keeps = keeps_side(a, b);
     const Vec3 way = way_in(saturating_subtract(b.velocity, a.velocity), n);
-    const std::int64_t room = spins + near_distance + (keeps_side(a, b) ? aside(sum_of_magnitudes(way)) : 0);
+    const std::int64_t room = spins + near_distance + (keeps ? aside(sum_of_magnitudes(way)) : 0);
     if (piece_b.kind == LKS_SHAPE_PLANE ||
         !passes_by(saturating_subtract(piece_b.centre, piece_a.centre), way,
                    room_around(extent(piece_a), extent(piece_b), room))) {
-        collide(piece_a, piece_b, motion + near_distance, keeps_side(a, b) ? side : no_side, manifold);
+        collide(piece_a, piece_b, motion + near_distance, keeps ? side : no_side, manifold);
     }
     ContactPush old_pushes[greatest_point_count];
     for (std::uint32_t i = 0; i < contact.count; ++i) {
