@@ -410,11 +410,31 @@ TEST_CASE("kernels: predictions at the ends of every range are what integers wit
                             expected_start.push_back(low(here));
                         }
                     }
+                    // The same along each axis.
+                    const auto along_all_axes = [](const std::vector<std::int64_t>& xs,
+                                                   const std::vector<std::int64_t>& starts) {
+                        std::vector<std::int64_t> all;
+                        for (int axis = 0; axis < 6; ++axis) {
+                            const std::vector<std::int64_t>& values = axis < 3 ? xs : starts;
+                            all.insert(all.end(), values.begin(), values.end());
+                        }
+                        return all;
+                    };
+                    std::vector<std::int64_t> particles = along_all_axes(x, start);
                     const PredictionClamps clamps =
-                        kernels->predict({x.data(), start.data(), x.size(), acceleration, kept, limit});
-                    different += x == expected_x && start == expected_start ? 0 : 1;
+                        kernels->predict({particles.data(),
+                                          x.size(),
+                                          x.size(),
+                                          nullptr,
+                                          1,
+                                          kept,
+                                          {acceleration, acceleration, acceleration},
+                                          limit});
+                    different += particles == along_all_axes(expected_x, expected_start) ? 0 : 1;
                     different +=
-                        clamps.speeds == expected.speeds && clamps.positions == expected.positions ? 0 : 1;
+                        clamps.speeds == 3 * expected.speeds && clamps.positions == 3 * expected.positions
+                            ? 0
+                            : 1;
                 }
             }
         }

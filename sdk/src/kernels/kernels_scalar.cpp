@@ -3,7 +3,8 @@
 #include "kernels/contact_scalar.h"
 #include "kernels/distance_scalar_loop.h"
 #include "kernels/hash_update.h"
-#include "kernels/prediction_scalar.h"
+#include "kernels/lanes_plain.h"
+#include "kernels/prediction_lanes.h"
 #include "kernels/tether_scalar.h"
 
 namespace lks {
@@ -12,7 +13,7 @@ constinit const Kernels kernels_scalar{LKS_SIMD_SCALAR,
                                        false,
                                        1024,
                                        project_scalar,
-                                       predict_scalar,
+                                       predict_lanes<LanesPlain>,
                                        range_scalar,
                                        greatest_gap_scalar,
                                        near_box_scalar,

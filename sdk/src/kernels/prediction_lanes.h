@@ -3,6 +3,7 @@
 // limit whatever is added to it, and a place within 2^61 (objects are kept around their origin).
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <type_traits>
 
@@ -16,11 +17,11 @@ class PredictionLanes {
     using R = typename L::Register;
 
 public:
-    explicit PredictionLanes(const PredictionTask& task)
-        : task_(task), acceleration_(L::set(task.acceleration_motion)), kept_(L::set(task.kept)) {
-        const std::int64_t room =
-            task.motion_limit -
-            (task.acceleration_motion < 0 ? -task.acceleration_motion : task.acceleration_motion);
+    explicit PredictionLanes(const PredictionTask& task) : task_(task), kept_(L::set(task.kept)) {
+        std::int64_t room = task.motion_limit;
+        for (const std::int64_t acceleration : task.accelerations) {
+            room = std::min(room, task.motion_limit - (acceleration < 0 ? -acceleration : acceleration));
+        }
         const std::int64_t safe =
             room > 0 ? std::int64_t{1} << (63 - std::countl_zero(static_cast<std::uint64_t>(room))) : 0;
         motion_bias_ = L::set(safe);
@@ -28,33 +29,34 @@ public:
     }
 
     // From particle i on, in whole groups; returns where the rest begins.
-    std::size_t run(std::size_t i, PredictionClamps& clamps) const {
+    std::size_t run(const PredictionAxis& axis, std::size_t i, PredictionClamps& clamps) const {
         constexpr std::size_t lanes = 2 * L::half;
+        const R acceleration = L::set(axis.acceleration);
         for (; i + lanes <= task_.count; i += lanes) {
-            const Prediction first = predict(i);
-            const Prediction second = predict(i + L::half);
+            const Prediction first = predict(axis, acceleration, i);
+            const Prediction second = predict(axis, acceleration, i + L::half);
             if (might_be_clamped(L::bit_or(first.motion, second.motion),
                                  L::bit_or(first.place, second.place))) {
-                predict_in_turn<damped>(task_, i, i + lanes, clamps);
+                predict_in_turn<damped>(task_, axis, i, i + lanes, clamps);
             } else {
-                store(i, first);
-                store(i + L::half, second);
+                store(axis, i, first);
+                store(axis, i + L::half, second);
             }
         }
         return i;
     }
 
     // To the end.
-    void finish(std::size_t i, PredictionClamps& clamps) const {
+    void finish(const PredictionAxis& axis, std::size_t i, PredictionClamps& clamps) const {
         if (i + L::half <= task_.count) {
-            const Prediction last = predict(i);
+            const Prediction last = predict(axis, L::set(axis.acceleration), i);
             if (!might_be_clamped(last.motion, last.place)) {
-                store(i, last);
+                store(axis, i, last);
                 i += L::half;
             }
         }
         if (i != task_.count) {
-            predict_in_turn<damped>(task_, i, task_.count, clamps);
+            predict_in_turn<damped>(task_, axis, i, task_.count, clamps);
         }
     }
 
@@ -71,14 +73,14 @@ private:
             L::bit_or(L::bit_and(motion, motion_beyond_), L::bit_and(place, L::set(~(2 * safe_place - 1)))));
     }
 
-    Prediction predict(std::size_t i) const {
-        const R x = L::load(task_.x + i);
-        const R motion = L::subtract(x, L::load(task_.start + i));
+    Prediction predict(const PredictionAxis& axis, R acceleration, std::size_t i) const {
+        const R x = L::load(axis.x + i);
+        const R motion = L::subtract(x, L::load(axis.start + i));
         R kept = motion;
         if constexpr (damped) {
             kept = damp_lanes(motion);
         }
-        return {x, L::add(x, L::add(kept, acceleration_)), L::add(motion, motion_bias_),
+        return {x, L::add(x, L::add(kept, acceleration)), L::add(motion, motion_bias_),
                 L::add(x, L::set(safe_place))};
     }
 
@@ -91,13 +93,12 @@ private:
                           L::add(L::multiply_unsigned(low, kept_), L::set(unit_one >> 1))));
     }
 
-    void store(std::size_t i, const Prediction& prediction) const {
-        L::store(task_.start + i, prediction.start);
-        L::store(task_.x + i, prediction.x);
+    static void store(const PredictionAxis& axis, std::size_t i, const Prediction& prediction) {
+        L::store(axis.start + i, prediction.start);
+        L::store(axis.x + i, prediction.x);
     }
 
     PredictionTask task_; // a copy, so that what is stored can't be thought to change it
-    R acceleration_;
     R kept_;
     R motion_bias_;
     R motion_beyond_;
@@ -107,16 +108,21 @@ private:
 template <typename L, typename Narrow, bool damped>
 inline PredictionClamps predict_in_groups(const PredictionTask& task) {
     PredictionClamps clamps;
-    std::size_t i = 0;
+    const PredictionLanes<Narrow, damped> narrow(task);
     if constexpr (!std::is_same_v<L, Narrow>) {
         if (task.count >= 8 * L::half) {
-            i = PredictionLanes<L, damped>(task).run(0, clamps);
+            const PredictionLanes<L, damped> wide(task);
+            for_each_axis(task, [&](const PredictionAxis& axis) {
+                const std::size_t rest = wide.run(axis, 0, clamps);
+                if (rest != task.count) {
+                    narrow.finish(axis, narrow.run(axis, rest, clamps), clamps);
+                }
+            });
+            return clamps;
         }
     }
-    if (i != task.count) {
-        const PredictionLanes<Narrow, damped> narrow(task);
-        narrow.finish(narrow.run(i, clamps), clamps);
-    }
+    for_each_axis(
+        task, [&](const PredictionAxis& axis) { narrow.finish(axis, narrow.run(axis, 0, clamps), clamps); });
     return clamps;
 }
 

@@ -11,6 +11,25 @@
 namespace lks {
 namespace {
 
+// One axis of one object of a task.
+struct PredictionAxis {
+    std::int64_t* x;
+    std::int64_t* start; // where the particles were at the start of the substep before
+    std::int64_t acceleration;
+};
+
+template <typename Use>
+inline void for_each_axis(const PredictionTask& task, const Use& use) {
+    constexpr std::size_t axes = 3;
+    for (std::uint32_t object = 0; object < task.object_count; ++object) {
+        std::int64_t* const x = task.x + (task.objects == nullptr ? 0 : task.objects[object]);
+        for (std::size_t i = 0; i < axes; ++i) {
+            use(PredictionAxis{x + i * task.axis_stride, x + (i + axes) * task.axis_stride,
+                               task.accelerations[i]});
+        }
+    }
+}
+
 // motion · kept, rounded half up; split, as the whole product needs 92 bits.
 inline std::int64_t damp(std::int64_t motion, std::uint32_t kept) {
     const std::int64_t high = motion >> unit_fraction_bits;
@@ -20,37 +39,27 @@ inline std::int64_t damp(std::int64_t motion, std::uint32_t kept) {
 }
 
 template <bool damped>
-LKS_SHORT_LOOPS void predict_in_turn(const PredictionTask& task, std::size_t first, std::size_t last,
-                                     PredictionClamps& clamps) {
+LKS_SHORT_LOOPS void predict_in_turn(const PredictionTask& task, const PredictionAxis& axis,
+                                     std::size_t first, std::size_t last, PredictionClamps& clamps) {
     const std::int64_t limit = task.motion_limit;
     LKS_SHORT_LOOP
     for (std::size_t i = first; i < last; ++i) {
-        const std::int64_t x = task.x[i];
-        std::int64_t motion = wrapping_subtract(x, task.start[i]);
+        const std::int64_t x = axis.x[i];
+        std::int64_t motion = wrapping_subtract(x, axis.start[i]);
         if constexpr (damped) {
             motion = damp(motion, task.kept);
         }
         // Clamped before the sum too, which then has room.
         const std::int64_t inertial = std::clamp(motion, -limit, limit);
-        const std::int64_t accelerated = inertial + task.acceleration_motion;
+        const std::int64_t accelerated = inertial + axis.acceleration;
         const std::int64_t limited = std::clamp(accelerated, -limit, limit);
         clamps.speeds += static_cast<std::uint64_t>(inertial != motion || limited != accelerated);
         const std::int64_t here = std::clamp(x, -coordinate_limit, coordinate_limit);
-        task.start[i] = here;
+        axis.start[i] = here;
         const std::int64_t predicted = std::clamp(here + limited, -coordinate_limit, coordinate_limit);
         clamps.positions += static_cast<std::uint64_t>(here != x || predicted != here + limited);
-        task.x[i] = predicted;
+        axis.x[i] = predicted;
     }
-}
-
-inline PredictionClamps predict_scalar(const PredictionTask& task) {
-    PredictionClamps clamps;
-    if (task.kept == unit_one) {
-        predict_in_turn<false>(task, 0, task.count, clamps);
-    } else {
-        predict_in_turn<true>(task, 0, task.count, clamps);
-    }
-    return clamps;
 }
 
 } // namespace

@@ -9,7 +9,7 @@ namespace {
 
 // Axes begin at cache lines, and those of large objects not at the same place of a 4 kB page, where
 // processors take a load from one for a load of what was just stored to another.
-std::size_t axis_stride(std::size_t count) {
+std::size_t stride_for(std::size_t count) {
     constexpr std::size_t line = 8;
     constexpr std::size_t page = 512;
     constexpr std::size_t offset = 11 * line;
@@ -33,7 +33,7 @@ Object::~Object() {
 bool Object::allocate(bool with_forces, bool need_multipliers, bool keep_previous) {
     record_forces = with_forces;
     const std::size_t n = count();
-    axis_stride_ = axis_stride(n);
+    axis_stride_ = stride_for(n);
     return particles.resize(axis_count * axis_stride_ + widest_group) &&
            (!need_multipliers || multipliers.resize(asset_->constraints.size())) &&
            (!keep_previous || previous.resize(3 * n));

@@ -53,6 +53,8 @@ public:
     const lks_asset& asset() const { return *asset_; }
     std::uint32_t count() const { return asset_->vertex_count(); }
 
+    // From one axis to the next.
+    std::size_t axis_stride() const { return axis_stride_; }
     std::int64_t* axis(int index) {
         return particles.data() + static_cast<std::size_t>(index) * axis_stride_;
     }

@@ -27,14 +27,9 @@ public:
     ObjectTick(const lks_world& world, Object& object, TickScratch& scratch, Team* team,
                std::uint32_t number = 0)
         : world_(world), object_(object), scratch_(scratch), team_(team), asset_(object.asset()),
-          coefficients_(object.coefficients()), kept_(kept_share(world.rate, object.linear_damping)),
+          coefficients_(object.coefficients()),
           candidates_(scratch.candidates.data() +
-                      scratch.candidates.capacity() / most_side_by_side * number) {
-        const std::int64_t gravity[3] = {world.gravity.x, world.gravity.y, world.gravity.z};
-        for (int axis = 0; axis < 3; ++axis) {
-            acceleration_[axis] = motion_from_acceleration(world.rate, gravity[axis], object.gravity_factor);
-        }
-    }
+                      scratch.candidates.capacity() / most_side_by_side * number) {}
 
     void begin_near_colliders() { find_candidates(begin(), world_.rate.substeps); }
 
@@ -48,8 +43,29 @@ public:
         return bounds;
     }
 
+    PredictionTask prediction() { return make_prediction(world_.rate, world_.gravity, object_); }
+
+    void predict(const PredictionTask& task) {
+        if (team_ == nullptr) {
+            count(world_.kernels->predict(task));
+            return;
+        }
+        PredictionClamps clamps[greatest_block_count];
+        const std::uint32_t blocks =
+            in_blocks(object_.count(), particles_a_block,
+                      [&](std::uint32_t block, std::uint32_t first, std::uint32_t count) {
+                          PredictionTask part = task;
+                          part.x += first;
+                          part.count = count;
+                          clamps[block] = world_.kernels->predict(part);
+                      });
+        for (std::uint32_t block = 0; block < blocks; ++block) {
+            count(clamps[block]);
+        }
+    }
+
+    // After the prediction.
     void begin_substep(std::uint32_t substep) {
-        predict();
         place_pins(object_, substep, world_.rate.substeps);
         if (!object_.multipliers.empty()) {
             std::fill(object_.multipliers.begin(), object_.multipliers.end(), 0);
@@ -225,31 +241,6 @@ private:
                   });
     }
 
-    void predict() {
-        if (team_ == nullptr) {
-            count(predict(0, object_.count()));
-            return;
-        }
-        PredictionClamps clamps[greatest_block_count];
-        const std::uint32_t blocks =
-            in_blocks(object_.count(), particles_a_block,
-                      [&](std::uint32_t block, std::uint32_t first, std::uint32_t part) {
-                          clamps[block] = predict(first, part);
-                      });
-        for (std::uint32_t block = 0; block < blocks; ++block) {
-            count(clamps[block]);
-        }
-    }
-
-    PredictionClamps predict(std::uint32_t first, std::uint32_t part) {
-        PredictionClamps clamps;
-        for (int axis = 0; axis < 3; ++axis) {
-            predict_axis(object_.axis(axis) + first, object_.start_axis(axis) + first, part,
-                         acceleration_[axis], kept_, world_.rate.motion_limit, *world_.kernels, clamps);
-        }
-        return clamps;
-    }
-
     void count(const PredictionClamps& clamps) {
         scratch_.counters.position_clamps += clamps.positions;
         scratch_.counters.speed_clamps += clamps.speeds;
@@ -328,8 +319,6 @@ private:
     Team* team_;
     const lks_asset& asset_;
     const Coefficients& coefficients_;
-    std::uint32_t kept_;
-    std::int64_t acceleration_[3];
     std::uint32_t* candidates_; // colliders near the object
     std::uint32_t candidate_count_ = 0;
     std::optional<ParticleRows> rows_; // where constraints are swept in rows
@@ -353,7 +342,11 @@ public:
         ticks_[0]->prepare_batches();
         std::ptrdiff_t places[most_side_by_side];
         put_side_by_side(objects_, count_, scratch_.distances, places);
+        make_predictions(places);
         for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
+            for (std::uint32_t i = 0; i < prediction_count_; ++i) {
+                ticks_[i]->predict(predictions_[i]);
+            }
             each([&](ObjectTick& tick) { tick.begin_substep(substep); });
             for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
                 each([](ObjectTick& tick) { tick.hold_by_tethers(); });
@@ -365,6 +358,21 @@ public:
     }
 
 private:
+    // One of all objects, if all move alike; otherwise each its own.
+    void make_predictions(const std::ptrdiff_t* places) {
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            predictions_[i] = ticks_[i]->prediction();
+        }
+        prediction_count_ = count_;
+        if (count_ > 1 &&
+            std::all_of(predictions_ + 1, predictions_ + count_,
+                        [&](const PredictionTask& task) { return moves_alike(task, predictions_[0]); })) {
+            prediction_count_ = 1;
+            predictions_[0].objects = places;
+            predictions_[0].object_count = count_;
+        }
+    }
+
     template <typename Step>
     void each(const Step& step) {
         for (std::uint32_t i = 0; i < count_; ++i) {
@@ -377,6 +385,8 @@ private:
     Object* const* objects_;
     std::uint32_t count_;
     std::optional<ObjectTick> ticks_[most_side_by_side];
+    PredictionTask predictions_[most_side_by_side];
+    std::uint32_t prediction_count_ = 0;
 };
 
 } // namespace
@@ -397,7 +407,9 @@ void begin_object_tick(const lks_world& world, Object& object, TickScratch& scra
 
 void begin_object_substep(const lks_world& world, Object& object, TickScratch& scratch,
                           std::uint32_t substep) {
-    ObjectTick(world, object, scratch, nullptr).begin_substep(substep);
+    ObjectTick tick(world, object, scratch, nullptr);
+    tick.predict(tick.prediction());
+    tick.begin_substep(substep);
 }
 
 void project_object(const lks_world& world, Object& object, TickScratch& scratch) {

@@ -4,19 +4,21 @@
 // exact.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
-#include "kernels/kernels.h"
+#include "fixed/vector.h"
+#include "kernels/prediction_task.h"
+#include "solver/object.h"
 #include "solver/step_rate.h"
 
 namespace lks {
 
-// One axis of all particles. Adds the velocity, damped to `kept` of itself (Unit), and `acceleration_motion`;
-// each within the motion limit, and the position within the object's range.
-void predict_axis(std::int64_t* x, std::int64_t* start, std::size_t count, std::int64_t acceleration_motion,
-                  std::uint32_t kept, std::int64_t motion_limit, const Kernels& kernels,
-                  PredictionClamps& clamps);
+// What a substep does to all particles of an object: adds the velocity, damped, and gravity's a·h², each
+// within the motion limit, and keeps the position within the object's range.
+PredictionTask make_prediction(const StepRate& rate, const fixed::Vec3& gravity, Object& object);
+
+// Whether both add the same to motions, and keep the same of them.
+bool moves_alike(const PredictionTask& a, const PredictionTask& b);
 
 // Sets the velocity of one axis of one particle: x stays, the start moves. True where the limit clamped it.
 bool set_motion(std::int64_t x, std::int64_t& start, std::int64_t motion, std::int64_t motion_limit);
