@@ -34,7 +34,7 @@ inline const Kernels& prompt() {
 
 // All kernels of a table. One that is new does not compile here until it is among them.
 constexpr auto all_of(auto& kernels) {
-    auto& [level, side_by_side, constraints_a_block, project_distances, predict, range, greatest_gap,
+    auto& [level, side_by_side, constraints_a_block, project_distances, predict, ranges, greatest_gap,
            near_box, near_plane, respond, beyond_tether, chain, trees, contact_points, rows, hash_update] =
         kernels;
     auto& [plane, sphere, capsule, box] = respond;
@@ -42,7 +42,7 @@ constexpr auto all_of(auto& kernels) {
     auto& [factor_trees, solve_trees] = trees;
     auto& [begin_points, make_rows, measure_points] = contact_points;
     auto& [take, give_back] = rows;
-    return std::tie(project_distances, predict, range, greatest_gap, near_box, near_plane, beyond_tether,
+    return std::tie(project_distances, predict, ranges, greatest_gap, near_box, near_plane, beyond_tether,
                     hash_update, plane, sphere, capsule, box, measure, stretch, turn, divide, solve, push,
                     stiffen, share, cross, factor_trees, solve_trees, begin_points, make_rows, measure_points,
                     take, give_back);

@@ -32,20 +32,28 @@ std::vector<std::int64_t> any_values(test::Random& random, std::size_t count) {
 TEST_CASE("kernels: every instruction set finds the least and the greatest of any numbers") {
     const std::vector<const Kernels*> all = test::all_kernels();
     test::Random random(31);
-    const std::uint64_t problems = test::sample_count() / 64; // of 64 numbers on the average
+    const std::uint64_t problems = test::sample_count() / 192; // of 192 numbers on the average
     std::uint64_t different = 0;
     for (std::uint64_t p = 0; p < problems; ++p) {
-        const auto first = static_cast<std::uint32_t>(random.below(9));
-        const auto count = static_cast<std::uint32_t>(1 + random.below(130));
-        std::vector<std::int64_t> values = any_values(random, first + count);
+        const std::size_t count = 1 + random.below(130);
+        const std::size_t stride = count + random.below(9);
+        const std::size_t first = random.below(9);
+        std::vector<std::int64_t> values = any_values(random, first + 3 * stride);
         // What is not among them is beyond all of them.
-        for (std::uint32_t i = 0; i < first; ++i) {
-            values[i] = i % 2 == 0 ? INT64_MIN : INT64_MAX;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (i < first || (i - first) % stride >= count) {
+                values[i] = i % 2 == 0 ? INT64_MIN : INT64_MAX;
+            }
         }
-        const auto [low, high] = std::minmax_element(values.begin() + first, values.end());
         for (const Kernels* kernels : all) {
-            const CoordinateRange range = kernels->range(values.data() + first, count);
-            different += range.low != *low || range.high != *high ? 1 : 0;
+            const CoordinateRanges ranges = kernels->ranges(values.data() + first, stride, count);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first + axis * stride);
+                const auto [low, high] =
+                    std::minmax_element(begin, begin + static_cast<std::ptrdiff_t>(count));
+                const CoordinateRange& range = ranges.axes[axis];
+                different += range.low != *low || range.high != *high ? 1 : 0;
+            }
         }
     }
     CHECK(different == 0);

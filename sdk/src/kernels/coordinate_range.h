@@ -13,6 +13,11 @@ struct CoordinateRange {
     std::int64_t high;
 };
 
+// Along x, y and z.
+struct CoordinateRanges {
+    CoordinateRange axes[3];
+};
+
 namespace {
 
 inline CoordinateRange joined(const CoordinateRange& a, const CoordinateRange& b) {
@@ -26,6 +31,11 @@ inline CoordinateRange range_scalar(const std::int64_t* values, std::size_t coun
         range = joined(range, {values[i], values[i]});
     }
     return range;
+}
+
+inline CoordinateRanges ranges_scalar(const std::int64_t* x, std::size_t axis_stride, std::size_t count) {
+    return {{range_scalar(x, count), range_scalar(x + axis_stride, count),
+             range_scalar(x + 2 * axis_stride, count)}};
 }
 
 // Of a[i] and b[i].

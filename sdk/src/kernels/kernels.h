@@ -25,8 +25,8 @@ struct Kernels {
     std::uint32_t constraints_a_block;
     void (*project_distances)(const DistanceTask& task);
     PredictionClamps (*predict)(const PredictionTask& task);
-    // Of one number at least.
-    CoordinateRange (*range)(const std::int64_t* values, std::size_t count);
+    // Of one particle at least; y and z stand axis_stride and twice that behind x.
+    CoordinateRanges (*ranges)(const std::int64_t* x, std::size_t axis_stride, std::size_t count);
     // Of a[i] and b[i].
     std::uint64_t (*greatest_gap)(const std::int64_t* a, const std::int64_t* b, std::size_t count);
     // Bit i: particle first + i may be touched; count ≤ 64.

@@ -1,6 +1,8 @@
 // coordinate_range.h over lanes: four registers at a time, as each waits for what it was before.
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/coordinate_range.h"
 #include "kernels/force_inline.h"
 
@@ -33,12 +35,10 @@ private:
     R low_, high_;
 };
 
+// count ≥ four registers
 template <typename L>
-inline CoordinateRange range_lanes(const std::int64_t* values, std::size_t count) {
+LKS_FORCE_INLINE CoordinateRange range_lanes(const std::int64_t* values, std::size_t count) {
     constexpr std::size_t step = 4 * L::half;
-    if (count < step) {
-        return range_scalar(values, count);
-    }
     RangeLanes<L> a(L::load(values)), b(L::load(values + L::half));
     RangeLanes<L> c(L::load(values + 2 * L::half)), d(L::load(values + 3 * L::half));
     // The last step may look at some again.
@@ -53,6 +53,20 @@ inline CoordinateRange range_lanes(const std::int64_t* values, std::size_t count
     c.include(d);
     a.include(c);
     return a.range();
+}
+
+// `Narrow`: the lanes for what is less than four registers.
+template <typename L, typename Narrow = L>
+inline CoordinateRanges ranges_lanes(const std::int64_t* x, std::size_t axis_stride, std::size_t count) {
+    if (count < 4 * L::half) {
+        if constexpr (std::is_same_v<L, Narrow>) {
+            return ranges_scalar(x, axis_stride, count);
+        } else {
+            return ranges_lanes<Narrow>(x, axis_stride, count);
+        }
+    }
+    return {{range_lanes<L>(x, count), range_lanes<L>(x + axis_stride, count),
+             range_lanes<L>(x + 2 * axis_stride, count)}};
 }
 
 template <typename L>

@@ -172,7 +172,7 @@ bool HeldParticles::contain(std::uint32_t particle) const {
 
 const Bounds& SweptParticles::bounds() {
     if (!bounds_known_) {
-        bounds_ = object_.swept_bounds(kernels_, 0, object_.count());
+        bounds_ = joined(object_.bounds(kernels_), object_.start_bounds(kernels_, 0, object_.count()));
         bounds_known_ = true;
     }
     return bounds_;

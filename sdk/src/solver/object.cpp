@@ -133,27 +133,23 @@ std::uint64_t Object::shift_pin_targets(int axis, std::int64_t shift) {
 
 namespace {
 
-Bounds make_bounds(const CoordinateRange (&ranges)[3]) {
-    return {{ranges[0].low, ranges[1].low, ranges[2].low}, {ranges[0].high, ranges[1].high, ranges[2].high}};
+Bounds make_bounds(const CoordinateRanges& ranges) {
+    const auto& [x, y, z] = ranges.axes;
+    return {{x.low, y.low, z.low}, {x.high, y.high, z.high}};
 }
 
 } // namespace
 
 Bounds Object::bounds(const Kernels& kernels) const {
-    CoordinateRange ranges[3];
-    for (int i = 0; i < 3; ++i) {
-        ranges[i] = kernels.range(axis(i), count());
-    }
-    return make_bounds(ranges);
+    return bounds(kernels, 0, count());
 }
 
-Bounds Object::swept_bounds(const Kernels& kernels, std::uint32_t first, std::uint32_t particle_count) const {
-    CoordinateRange ranges[3];
-    for (int i = 0; i < 3; ++i) {
-        ranges[i] = joined(kernels.range(axis(i) + first, particle_count),
-                           kernels.range(start_axis(i) + first, particle_count));
-    }
-    return make_bounds(ranges);
+Bounds Object::bounds(const Kernels& kernels, std::uint32_t first, std::uint32_t particle_count) const {
+    return make_bounds(kernels.ranges(axis(0) + first, axis_stride_, particle_count));
+}
+
+Bounds Object::start_bounds(const Kernels& kernels, std::uint32_t first, std::uint32_t particle_count) const {
+    return make_bounds(kernels.ranges(start_axis(0) + first, axis_stride_, particle_count));
 }
 
 std::int64_t Object::greatest_motion(const Kernels& kernels) const {

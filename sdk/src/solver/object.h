@@ -34,6 +34,13 @@ inline void include(Bounds& bounds, const Coordinates& point) {
                    std::max(bounds.high.z, point.z)};
 }
 
+inline Bounds joined(const Bounds& a, const Bounds& b) {
+    Bounds both = a;
+    include(both, {b.low.x, b.low.y, b.low.z});
+    include(both, {b.high.x, b.high.y, b.high.z});
+    return both;
+}
+
 // Position and start of the substep, x, y, z each.
 inline constexpr int axis_count = 6;
 
@@ -106,14 +113,16 @@ public:
     // After the origin moved; a target that leaves the range by it is clamped. How many were.
     std::uint64_t shift_pin_targets(int axis, std::int64_t shift);
 
+    // Of all particles, or some.
     Bounds bounds(const Kernels& kernels) const;
+    Bounds bounds(const Kernels& kernels, std::uint32_t first, std::uint32_t count) const;
+    // Of where they were at the start of the substep.
+    Bounds start_bounds(const Kernels& kernels, std::uint32_t first, std::uint32_t count) const;
     // Of any particle on any axis in the last substep, at most substep_motion_limit.
     std::int64_t greatest_motion(const Kernels& kernels) const;
     // By how much the box of any particle's way through the substep is to grow at most where a shape turns
     // (collide/collider_motion.h).
     std::int64_t greatest_growth(const Kernels& kernels) const;
-    // Of where some of the particles are and were at the start of the substep.
-    Bounds swept_bounds(const Kernels& kernels, std::uint32_t first, std::uint32_t count) const;
 
     // State.
     fixed::Vec3 origin{};            // World

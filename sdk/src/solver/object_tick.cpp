@@ -66,6 +66,9 @@ public:
 
     // After the prediction.
     void begin_substep(std::uint32_t substep) {
+        if (candidate_count_ != 0) {
+            begin_bounds();
+        }
         place_pins(object_, substep, world_.rate.substeps);
         if (!object_.multipliers.empty()) {
             std::fill(object_.multipliers.begin(), object_.multipliers.end(), 0);
@@ -164,6 +167,8 @@ public:
         }
         if (touched) {
             place_pins(object_, substep, world_.rate.substeps);
+            bounds_.reset();
+            start_bounds_.reset();
         }
     }
 
@@ -246,20 +251,53 @@ private:
         scratch_.counters.speed_clamps += clamps.speeds;
     }
 
-    // Where the particles have been in this substep, from start to now.
+    // Where the substep before has ended is where this one begins. The prediction has brought what was beyond
+    // the range back to its ends.
+    void begin_bounds() {
+        start_bounds_ = bounds_;
+        bounds_.reset();
+        if (start_bounds_) {
+            keep_in_range(start_bounds_->low);
+            keep_in_range(start_bounds_->high);
+        }
+    }
+
+    // Where the particles have been in this substep, from start to now. What has touched nothing in the one
+    // before begins where that looked for it last.
     Bounds swept_bounds() {
+        if (!start_bounds_) {
+            start_bounds_ = bounds_of_blocks([this](std::uint32_t first, std::uint32_t count) {
+                return object_.start_bounds(*world_.kernels, first, count);
+            });
+        }
+        bounds_ = bounds_of_blocks([this](std::uint32_t first, std::uint32_t count) {
+            return object_.bounds(*world_.kernels, first, count);
+        });
+        return joined(*start_bounds_, *bounds_);
+    }
+
+    template <typename BoundsOf>
+    Bounds bounds_of_blocks(const BoundsOf& bounds_of) {
         Bounds parts[greatest_block_count];
         const std::uint32_t blocks =
             in_blocks(object_.count(), particles_a_block,
                       [&](std::uint32_t block, std::uint32_t first, std::uint32_t count) {
-                          parts[block] = object_.swept_bounds(*world_.kernels, first, count);
+                          parts[block] = bounds_of(first, count);
                       });
         Bounds bounds = parts[0];
         for (std::uint32_t block = 1; block < blocks; ++block) {
-            include(bounds, {parts[block].low.x, parts[block].low.y, parts[block].low.z});
-            include(bounds, {parts[block].high.x, parts[block].high.y, parts[block].high.z});
+            bounds = joined(bounds, parts[block]);
         }
         return bounds;
+    }
+
+    static void keep_in_range(fixed::Vec3& corner) {
+        const auto keep = [](std::int64_t& value) {
+            value = std::clamp(value, -coordinate_limit, coordinate_limit);
+        };
+        keep(corner.x);
+        keep(corner.y);
+        keep(corner.z);
     }
 
     // Calls body(block, first, count) for parts of `count` elements of about `grain` each, one after the
@@ -321,6 +359,8 @@ private:
     const Coefficients& coefficients_;
     std::uint32_t* candidates_; // colliders near the object
     std::uint32_t candidate_count_ = 0;
+    // Where particles began the substep, and where they are since contacts looked, if nothing has moved them.
+    std::optional<Bounds> start_bounds_, bounds_;
     std::optional<ParticleRows> rows_; // where constraints are swept in rows
     bool are_in_rows_ = false;         // the arrays are those of before
 };
