@@ -73,7 +73,7 @@ public:
           substeps_per_second_(static_cast<std::uint64_t>(rate.substeps_per_second)), impulse_(impulse) {}
     bool ignores(std::uint32_t particle) const override { return held_.contain(particle); }
     Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
-        swept_.moved();
+        moved(particle);
         if (adds_up()) {
             add_push(particle, to_world(saturate(fixed::length(correction))));
         }
@@ -92,7 +92,7 @@ protected:
                                               (speed / to_scaled(greater)).to_i64_fixed(world_fraction_bits));
         }
     }
-    void moved() const { swept_.moved(); }
+    void moved(std::uint32_t particle) const { swept_.moved(particle); }
     bool adds_up() const { return impulse_ != nullptr; }
 
 private:
@@ -112,7 +112,7 @@ public:
         : Reaction(reaction), object_(object), body_(body), place_(place), frame_(frame) {}
 
     Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
-        moved();
+        moved(particle);
         fixed::NormalisedVector way{};
         if (!fixed::normalise(correction, way)) {
             return correction;
@@ -168,22 +168,6 @@ private:
 
 bool HeldParticles::contain(std::uint32_t particle) const {
     return std::any_of(first, last, [particle](const HeldParticle& h) { return h.particle == particle; });
-}
-
-const Bounds& SweptParticles::bounds() {
-    if (!bounds_known_) {
-        bounds_ = joined(object_.bounds(kernels_), object_.start_bounds(kernels_, 0, object_.count()));
-        bounds_known_ = true;
-    }
-    return bounds_;
-}
-
-std::int64_t SweptParticles::greatest_growth() {
-    if (!growth_known_) {
-        growth_ = object_.greatest_growth(kernels_);
-        growth_known_ = true;
-    }
-    return growth_;
 }
 
 HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t object, std::uint32_t body) {

@@ -6,6 +6,7 @@
 #include "kernels/kernels.h"
 #include "rigid/attachment.h"
 #include "rigid/body_motion.h"
+#include "rigid/swept_particles.h"
 #include "solver/object.h"
 #include "solver/step_rate.h"
 
@@ -19,26 +20,6 @@ struct HeldParticles {
     bool contain(std::uint32_t particle) const;
 };
 HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t object, std::uint32_t body);
-
-// Where the particles of an object are, and were at the substep's start; looked at anew after some were
-// moved.
-class SweptParticles {
-public:
-    SweptParticles(const Object& object, const Kernels& kernels) : object_(object), kernels_(kernels) {}
-
-    const Bounds& bounds();
-    // By how much the box of any one's way is to grow at most (collide/collider_motion.h).
-    std::int64_t greatest_growth();
-    void moved() { bounds_known_ = growth_known_ = false; }
-
-private:
-    const Object& object_;
-    const Kernels& kernels_;
-    Bounds bounds_{};
-    std::int64_t growth_ = 0;
-    bool bounds_known_ = false;
-    bool growth_known_ = false;
-};
 
 // All particles of the object against all shapes of the body, in this substep. A sleeping body does not give
 // way; how fast what struck it would have made it is added to its `struck`. What they push is added to

@@ -7,6 +7,16 @@
 namespace lks {
 namespace {
 
+// Of ways along the axes; rounded up.
+std::int64_t half_of_way(const std::uint64_t (&gaps)[3]) {
+    std::uint64_t quarters = 0; // their sum may have 66 bits
+    for (const std::uint64_t gap : gaps) {
+        quarters += gap / 4 + 1;
+    }
+    const std::int64_t way = quarters > INT64_MAX / 4 ? INT64_MAX : static_cast<std::int64_t>(4 * quarters);
+    return way / 2 + 1;
+}
+
 // Axes begin at cache lines, and those of large objects not at the same place of a 4 kB page, where
 // processors take a load from one for a load of what was just stored to another.
 std::size_t stride_for(std::size_t count) {
@@ -161,12 +171,22 @@ std::int64_t Object::greatest_motion(const Kernels& kernels) const {
 }
 
 std::int64_t Object::greatest_growth(const Kernels& kernels) const {
-    std::uint64_t quarters = 0; // of the ways along the axes, of which the sum may have 66 bits
+    std::uint64_t gaps[3];
     for (int i = 0; i < 3; ++i) {
-        quarters += kernels.greatest_gap(axis(i), start_axis(i), count()) / 4 + 1;
+        gaps[i] = kernels.greatest_gap(axis(i), start_axis(i), count());
     }
-    const std::int64_t way = quarters > INT64_MAX / 4 ? INT64_MAX : static_cast<std::int64_t>(4 * quarters);
-    return way / 2 + 1;
+    return half_of_way(gaps);
+}
+
+std::int64_t Object::growth_of(std::uint32_t particle) const {
+    std::uint64_t gaps[3];
+    for (int i = 0; i < 3; ++i) {
+        const std::int64_t x = axis(i)[particle];
+        const std::int64_t start = start_axis(i)[particle];
+        gaps[i] =
+            static_cast<std::uint64_t>(std::max(x, start)) - static_cast<std::uint64_t>(std::min(x, start));
+    }
+    return half_of_way(gaps);
 }
 
 } // namespace lks

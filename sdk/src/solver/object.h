@@ -123,6 +123,8 @@ public:
     // By how much the box of any particle's way through the substep is to grow at most where a shape turns
     // (collide/collider_motion.h).
     std::int64_t greatest_growth(const Kernels& kernels) const;
+    // The same of one.
+    std::int64_t growth_of(std::uint32_t particle) const;
 
     // State.
     fixed::Vec3 origin{};            // World
