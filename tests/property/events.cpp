@@ -27,6 +27,17 @@ bool same(const lks_event& a, const lks_event& b) {
            a.collider.index == b.collider.index && a.strength == b.strength;
 }
 
+// Of those that load a contact, or unload it.
+std::vector<lks_event> loads(const std::vector<lks_event>& all, lks_event_kind kind) {
+    std::vector<lks_event> some;
+    for (const lks_event& event : only(all, kind)) {
+        if (event.body_b.generation == 0) { // with the ground
+            some.push_back(event);
+        }
+    }
+    return some;
+}
+
 } // namespace
 
 TEST_CASE("a ball that falls, bounces and rests begins and ends its contacts with the impulse that it has") {
@@ -164,6 +175,40 @@ TEST_CASE("soft touches stay below the threshold, and kinds that nobody wants ou
     }
 }
 
+TEST_CASE("a contact is loaded by a weight over the threshold, asleep too, and unloaded when less is left") {
+    for (const int substeps : {2, 8, 20}) {
+        World world(world_def(60, substeps));
+        add_ground(world);
+        const lks_body_id box = add_body(world, box_shape(0.1, 0.1, 0.1), fixed(0, 0.1, 0)); // 1.3 N s a tick
+        const double weight = mass_of(world, box) * 9.81 / 60;
+        record(world, LKS_ALL_EVENTS, 1.5 * weight);
+        CHECK(loads(run(world, 60), LKS_EVENT_CONTACT_LOADED).empty());
+        const lks_body_id second = add_body(world, box_shape(0.1, 0.1, 0.1), fixed(0, 0.3, 0));
+        std::vector<lks_event> all = run(world, 300);
+        const std::vector<lks_event> loaded = loads(all, LKS_EVENT_CONTACT_LOADED);
+        REQUIRE(loaded.size() == 1);
+        CHECK(loaded[0].body_a.index == box.index);
+        CHECK(metres(loaded[0].strength) >= 1.5 * weight);
+        CHECK(only(all, LKS_EVENT_CONTACT_LOADED).size() == 1); // between the boxes it is one weight
+        CHECK(only(all, LKS_EVENT_CONTACT_UNLOADED).empty());
+        CHECK(lks_world_awake_body_count(world) == 0);
+        REQUIRE(lks_world_remove_body(world, second) == LKS_OK);
+        all = run(world, 60);
+        const std::vector<lks_event> unloaded = loads(all, LKS_EVENT_CONTACT_UNLOADED);
+        REQUIRE(unloaded.size() == 1);
+        CHECK(unloaded[0].body_a.index == box.index);
+        CHECK(std::abs(metres(unloaded[0].strength) / weight - 1) < 0.6);
+        CHECK(only(all, LKS_EVENT_CONTACT_END).empty());
+        // Lifted off: one weight is unloaded, and the contact ends.
+        record(world, LKS_ALL_EVENTS, 0.5 * weight);
+        REQUIRE(lks_body_apply_impulse(world, box, fixed(0, 40, 0), fixed(0, 0.1, 0)) == LKS_OK);
+        all = run(world, 5);
+        REQUIRE(only(all, LKS_EVENT_CONTACT_UNLOADED).size() == 1);
+        CHECK(only(all, LKS_EVENT_CONTACT_UNLOADED)[0].strength == 0);
+        CHECK(only(all, LKS_EVENT_CONTACT_END).size() == 1);
+    }
+}
+
 TEST_CASE("what breaks says so, with the force that broke it") {
     World world(world_def(60, 8));
     const lks_body_id anchor = add_anchor(world, {});
@@ -249,9 +294,9 @@ TEST_CASE("events beyond the room for them are counted, and wrong settings refus
     record(world, LKS_ALL_EVENTS, 0, 3);
     world.step();
     CHECK(lks_world_event_count(world) == 3);
-    CHECK(world.counters().lost_events == 13); // each begins and hits
-    check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "256",
-                       [&] { return lks_world_record_events(world, 256, 0, 10); });
+    CHECK(world.counters().lost_events == 21); // each begins, hits and is loaded
+    check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "1024",
+                       [&] { return lks_world_record_events(world, 1024, 0, 10); });
     check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "-1",
                        [&] { return lks_world_record_events(world, 1, fixed(-1), 10); });
     check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "0 events",

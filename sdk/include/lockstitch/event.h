@@ -33,12 +33,18 @@ typedef enum lks_event_kind {
      * whole, even where it begins in the last substep of one tick and goes on in the next. What pushes with
      * least_impulse a tick all the time (lies there with that weight times a tick) is told when it begins to,
      * and no more while it does, not even when something strikes it: choose a threshold above the weights. */
-    LKS_EVENT_CONTACT_HIT = 7
+    LKS_EVENT_CONTACT_HIT = 7,
+    /* At the end of this tick they press each other with least_impulse a tick or more, and did not at the end
+     * of the one before; and the reverse, also where they part. For what a pressure plate asks: who stands on
+     * it with that weight. An impact that is over within a tick tells neither; what is removed is unloaded
+     * without an event. */
+    LKS_EVENT_CONTACT_LOADED = 8,
+    LKS_EVENT_CONTACT_UNLOADED = 9
 } lks_event_kind;
 
 /* For lks_world_record_events: one bit a kind. */
 #define LKS_EVENT_BIT(kind) (1u << (kind))
-#define LKS_ALL_EVENTS 0xffu
+#define LKS_ALL_EVENTS 0x3ffu
 #define LKS_MAX_EVENTS 1048576u
 
 typedef struct lks_event {
@@ -52,15 +58,16 @@ typedef struct lks_event {
     lks_attachment_id attachment;
     lks_object_id object; /* whose particles pushed body_a; generation 0: none */
     lks_fixed strength; /* a contact's impulse along its normals, N·s: of this tick, and, where an impact has
-                           begun in it, what it takes to stop the two if nobody else touched them; of
+                           begun in it, what it takes to stop the two if nobody else touched them; loaded and
+                           unloaded: that of a tick which pushes as its last substep; of
                            particles the sum of the sizes of theirs, with friction; what broke a joint or an
                            attachment, N or N·m; saturates at 8,388,607 */
 } lks_event;
 
 /* From now on. `kinds` is made of LKS_EVENT_BITs, 0: none. `least_impulse` (N·s, 0 .. 8000000) is the
- * threshold of LKS_EVENT_CONTACT_HIT and of LKS_EVENT_PARTICLES_PUSHED; with 0 every contact that begins is a
- * hit. At most `capacity` (1 .. LKS_MAX_EVENTS) are kept of a call that runs ticks; the rest is counted
- * (lost_events). */
+ * threshold of LKS_EVENT_CONTACT_HIT, _LOADED and _UNLOADED and of LKS_EVENT_PARTICLES_PUSHED; with 0 every
+ * contact that begins is a hit, and every one that touches is loaded. At most `capacity` (1 ..
+ * LKS_MAX_EVENTS) are kept of a call that runs ticks; the rest is counted (lost_events). */
 LKS_API lks_result lks_world_record_events(lks_world* world, uint32_t kinds, lks_fixed least_impulse,
                                            uint32_t capacity);
 /* Of the ticks that the last lks_world_step or lks_world_advance ran. Valid until the next one, until a load,

@@ -93,6 +93,7 @@ public:
             if (begins || before.touches) {
                 tell_hit(pair, pushes, before, now);
             }
+            tell_load(pair, before, now);
             if (!now.touches && (before.touches || begins)) {
                 report(pair, LKS_EVENT_CONTACT_END, 0);
             }
@@ -116,10 +117,10 @@ private:
 
     void tell_hit(const Pair& pair, const PairPushes& pushes, const PairMemory& before,
                   const PairMemory& now) {
-        const std::int64_t least = world_.event_log.least_impulse;
-        if (before.touches && impulse_of(pair, of_tick(before)) >= least) {
+        if (is_loaded(pair, before)) {
             return;
         }
+        const std::int64_t least = world_.event_log.least_impulse;
         std::int64_t speed = pushes.given;
         if (before.last > now.last) {
             speed = fixed::saturating_add(speed, before.last - now.last);
@@ -131,6 +132,18 @@ private:
         if (impulse >= least) {
             report(pair, LKS_EVENT_CONTACT_HIT, impulse);
         }
+    }
+
+    void tell_load(const Pair& pair, const PairMemory& before, const PairMemory& now) {
+        const bool was_loaded = is_loaded(pair, before);
+        if (is_loaded(pair, now) != was_loaded) {
+            report(pair, was_loaded ? LKS_EVENT_CONTACT_UNLOADED : LKS_EVENT_CONTACT_LOADED,
+                   impulse_of(pair, of_tick(now)));
+        }
+    }
+
+    bool is_loaded(const Pair& pair, const PairMemory& memory) const {
+        return memory.touches && impulse_of(pair, of_tick(memory)) >= world_.event_log.least_impulse;
     }
 
     // As if it had pushed all the time as in its last substep.

@@ -16,7 +16,11 @@ struct EventLog {
     bool wants(lks_event_kind kind) const { return (kinds & LKS_EVENT_BIT(kind)) != 0; }
     bool wants_particles() const { return wants(LKS_EVENT_PARTICLES_PUSHED); }
     bool wants_contacts() const {
-        return wants(LKS_EVENT_CONTACT_BEGIN) || wants(LKS_EVENT_CONTACT_END) || wants(LKS_EVENT_CONTACT_HIT);
+        constexpr std::uint32_t contacts =
+            LKS_EVENT_BIT(LKS_EVENT_CONTACT_BEGIN) | LKS_EVENT_BIT(LKS_EVENT_CONTACT_END) |
+            LKS_EVENT_BIT(LKS_EVENT_CONTACT_HIT) | LKS_EVENT_BIT(LKS_EVENT_CONTACT_LOADED) |
+            LKS_EVENT_BIT(LKS_EVENT_CONTACT_UNLOADED);
+        return (kinds & contacts) != 0;
     }
 
     std::uint32_t kinds = 0;
