@@ -44,8 +44,7 @@ public:
                 touch_along_face(face, s);
             }
         } else {
-            set_normal(excess * (1 / excess.length()));
-            add(s, at(s) - excess, 0);
+            touch_edge(s, excess);
         }
     }
 
@@ -133,23 +132,74 @@ private:
         out_.add(segment_.centre + segment_.axes.column(1) * s, box_.at(on_box), feature);
     }
 
+    // Of the segment: from low to high; none where low > high.
+    struct Part {
+        Scalar low, high;
+    };
+
+    // What of it is between the two sides of the axis.
+    Part between(int i, const Part& part) const {
+        const Scalar d = component(direction_, i);
+        const Scalar c = component(centre_, i);
+        if (d == 0) {
+            return std::abs(c) <= extent(i) ? part : Part{1, 0};
+        }
+        const Scalar one = (-extent(i) - c) / d;
+        const Scalar other = (extent(i) - c) / d;
+        return {std::max(part.low, std::min(one, other)), std::min(part.high, std::max(one, other))};
+    }
+
+    Part part_over(int face_axis) const {
+        const Part part = between((face_axis + 1) % 3, {-half_, half_});
+        return between((face_axis + 2) % 3, part);
+    }
+
     // The part of the segment that is over the face, which holds at least s.
     void touch_along_face(const Face& face, Scalar s) {
-        Scalar low = -half_;
-        Scalar high = half_;
-        for (int i = 0; i < 3; ++i) {
-            const Scalar d = component(direction_, i);
-            if (i != face.axis && d != 0) {
-                const Scalar one = (-extent(i) - component(centre_, i)) / d;
-                const Scalar other = (extent(i) - component(centre_, i)) / d;
-                low = std::max(low, std::min(one, other));
-                high = std::min(high, std::max(one, other));
+        const Part part = part_over(face.axis);
+        if (part.low > part.high) {
+            touch_face(face, s, s);
+        } else {
+            touch_face(face, part.low, part.high);
+        }
+    }
+
+    // Nearest beyond an edge or a corner; what lies over the face beside, or along the edge, is held too.
+    void touch_edge(Scalar s, const Vec& excess) {
+        const Vec outward = excess * (1 / excess.length());
+        set_normal(outward);
+        const auto size = [&](int i) { return std::abs(component(excess, i)); };
+        int greatest = 0;
+        int least = 0;
+        for (int i = 1; i < 3; ++i) {
+            greatest = size(i) > size(greatest) ? i : greatest;
+            least = size(i) < size(least) ? i : least;
+        }
+        // Its distance along the one normal, if its own way leans by less than 26 degrees from that.
+        const auto hold = [&](Scalar place, std::uint32_t feature) {
+            const Vec way = excess_at(place);
+            if (outward.dot(way) > Scalar(0.9) * way.length()) {
+                add(place, at(place) - way, feature);
+            }
+        };
+        const Part over = part_over(greatest);
+        if (over.low < over.high) {
+            if (s <= over.low) {
+                hold(over.high, 2);
+            } else {
+                hold(over.low, 1);
+            }
+        } else {
+            const Part all{-half_, half_};
+            const Part beside = size(least) == 0 ? between(least, all) : all;
+            if (beside.low < s) {
+                hold(beside.low, 1);
+            }
+            if (beside.high > s) {
+                hold(beside.high, 2);
             }
         }
-        if (low > high) {
-            low = high = s;
-        }
-        touch_face(face, low, high);
+        add(s, at(s) - excess, 0);
     }
 
     void touch_face(const Face& face, Scalar low, Scalar high) {

@@ -220,6 +220,73 @@ TEST_CASE("equal boxes upon each other touch at their corners, a hair aside and 
     }
 }
 
+std::int32_t units(double part) {
+    return static_cast<std::int32_t>(std::lround(part * 0x1p30));
+}
+
+// A capsule over a box of one metre, its axis in the plane of x and y, turned down by so many degrees towards
+// +x.
+struct OverEdge {
+    lks::Piece capsule{};
+    lks::Piece box{};
+    lks::Manifold manifold{};
+
+    OverEdge(double x, double height, double degrees) {
+        box.kind = LKS_SHAPE_BOX;
+        box.half_extents = {fixed(0.5), fixed(0.5), fixed(0.5)};
+        box.axes = lks::fixed::to_matrix(lks::fixed::identity_rotation());
+        capsule.kind = LKS_SHAPE_CAPSULE;
+        capsule.radius = fixed(0.05);
+        capsule.half_length = fixed(0.3);
+        capsule.centre = {fixed(x), fixed(height), 0};
+        const double half = (-90 - degrees) * M_PI / 360;
+        capsule.axes = lks::fixed::to_matrix({0, 0, units(std::sin(half)), units(std::cos(half))});
+    }
+
+    // Of the point with that feature; infinite where there is none.
+    double separation(std::uint32_t feature) {
+        manifold = {};
+        lks::collide(capsule, box, fixed(0.2), lks::no_side, manifold);
+        for (std::uint32_t i = 0; i < manifold.count; ++i) {
+            if (manifold.points[i].feature == feature) {
+                return metres(manifold.points[i].separation);
+            }
+        }
+        return HUGE_VAL;
+    }
+};
+
+TEST_CASE("a capsule that hangs over a box's edge is held at its other end, too") {
+    for (const double degrees : {0.5, 2.0, 5.0, 10.0}) {
+        const double sine = std::sin(degrees * M_PI / 180);
+        const double cosine = std::cos(degrees * M_PI / 180);
+        // The axis passes the edge at 5.2 cm, so that its nearest point is beside the box.
+        OverEdge over(0.5, 0.5 + 0.052 / cosine, degrees);
+        const double at_edge = over.separation(0);
+        CHECK(std::abs(at_edge - 0.002) < 1e-6);
+        const double height = 0.052 / cosine + 0.3 * sine; // of the other end over the face
+        CHECK(std::abs(over.separation(1) - (cosine * height - 0.05)) < 1e-6);
+        CHECK(over.manifold.count == 2);
+        CHECK(std::abs(over.manifold.normal.y * 0x1p-30 + cosine) < 1e-6);
+    }
+    // What leans by more than 26 degrees is a touch at the edge alone.
+    OverEdge steep(0.5, 0.56, 40);
+    CHECK(steep.separation(0) < 0.01);
+    CHECK(steep.manifold.count == 1);
+}
+
+TEST_CASE("a capsule along a box's edge touches it at both ends of what they share") {
+    OverEdge along(0.52, 0.55, 0);
+    const std::int32_t half = units(std::sqrt(0.5)); // a quarter turn about x
+    along.capsule.axes = lks::fixed::to_matrix({half, 0, 0, half});
+    along.capsule.centre.z = fixed(0.3); // from 0 to 0.6, and the box ends at 0.5
+    const double distance = std::hypot(0.02, 0.05) - 0.05;
+    CHECK(std::abs(along.separation(1) - distance) < 1e-6);
+    CHECK(std::abs(along.separation(2) - distance) < 1e-6);
+    REQUIRE(along.manifold.count == 3); // and in the middle
+    CHECK(std::abs(metres(along.manifold.points[1].core_a.z - along.manifold.points[0].core_a.z)) > 0.499);
+}
+
 TEST_CASE("shapes in exactly the same place have a normal and an overlap") {
     Random random(21);
     for (const std::uint32_t kind : {LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE, LKS_SHAPE_BOX}) {

@@ -90,6 +90,9 @@ std::int64_t nearest_place(const LocalSegment& segment) {
     return (low + high) / 2;
 }
 
+// The cosine of what ways may lean from a normal that they share.
+constexpr std::int64_t least_leaning = direction_one / 10 * 9;
+
 struct Face {
     int axis;
     std::int64_t sign;
@@ -158,10 +161,7 @@ public:
                 touch_along_face(face, s);
             }
         } else {
-            fixed::NormalisedVector way{};
-            fixed::normalise(excess, way);
-            set_normal(way.direction);
-            add(s, {local_.at(0, s) - excess.x, local_.at(1, s) - excess.y, local_.at(2, s) - excess.z}, 0);
+            touch_edge(s, excess);
         }
     }
 
@@ -195,28 +195,95 @@ private:
                   feature);
     }
 
+    // Of a segment: from low to high; none where low > high.
+    struct Part {
+        std::int64_t low, high;
+    };
+
+    // Less what is not between the two sides of the axis.
+    void keep_between(int axis, Part& part) const {
+        const std::int64_t d = local_.direction[axis];
+        if (d == 0) {
+            if (local_.excess(axis, 0) != 0) {
+                part = {1, 0};
+            }
+            return;
+        }
+        const std::int64_t sides[2] = {-local_.extents[axis], local_.extents[axis]};
+        const auto place = [&](std::int64_t side) {
+            return fixed::multiply_divide(side - local_.centre[axis], direction_one, d);
+        };
+        part.low = std::max(part.low, place(sides[d < 0 ? 1 : 0]));
+        part.high = std::min(part.high, place(sides[d < 0 ? 0 : 1]));
+    }
+
+    Part part_over(int face_axis) const {
+        Part part{-local_.half, local_.half};
+        for (int axis = 0; axis < 3; ++axis) {
+            if (axis != face_axis) {
+                keep_between(axis, part);
+            }
+        }
+        return part;
+    }
+
     // The part of the segment that is over the face, which holds at least s.
     void touch_along_face(const Face& face, std::int64_t s) {
-        std::int64_t low = -local_.half;
-        std::int64_t high = local_.half;
-        for (int axis = 0; axis < 3; ++axis) {
-            if (axis == face.axis || local_.direction[axis] == 0) {
-                continue;
-            }
-            std::int64_t from = fixed::multiply_divide(-local_.extents[axis] - local_.centre[axis],
-                                                       direction_one, local_.direction[axis]);
-            std::int64_t to = fixed::multiply_divide(local_.extents[axis] - local_.centre[axis],
-                                                     direction_one, local_.direction[axis]);
-            if (from > to) {
-                std::swap(from, to);
-            }
-            low = std::max(low, from);
-            high = std::min(high, to);
+        const Part part = part_over(face.axis);
+        if (part.low > part.high) {
+            touch_face(face, s, s);
+        } else {
+            touch_face(face, part.low, part.high);
         }
-        if (low > high) {
-            low = high = s;
+    }
+
+    // Nearest beyond an edge or a corner. That point alone would let the segment tip about it until the next
+    // search: what lies over the face beside, or along the edge, is held too.
+    void touch_edge(std::int64_t s, const Vec3& excess) {
+        fixed::NormalisedVector way{};
+        fixed::normalise(excess, way);
+        set_normal(way.direction);
+        const std::int64_t sizes[3] = {std::abs(excess.x), std::abs(excess.y), std::abs(excess.z)};
+        const int over = static_cast<int>(std::max_element(sizes, sizes + 3) - sizes);
+        const Part face = part_over(over);
+        if (face.low < face.high) {
+            // It is on one side of s, its far end is that of the segment, or where the face ends again.
+            if (s <= face.low) {
+                hold(face.high, way.direction, 2);
+            } else {
+                hold(face.low, way.direction, 1);
+            }
+        } else {
+            const std::int64_t* const least = std::min_element(sizes, sizes + 3);
+            Part beside{-local_.half, local_.half};
+            if (*least == 0) {
+                keep_between(static_cast<int>(least - sizes), beside);
+            }
+            if (beside.low < s) {
+                hold(beside.low, way.direction, 1);
+            }
+            if (beside.high > s) {
+                hold(beside.high, way.direction, 2);
+            }
         }
-        touch_face(face, low, high);
+        // Also where both are held: it carries on what it has pushed while they come and go.
+        add_nearest(s, 0);
+    }
+
+    // Its distance along the one normal, if its own way leans by less than 26 degrees from that.
+    void hold(std::int64_t s, const Direction& outward, std::uint32_t feature) {
+        const Vec3 excess{local_.excess(0, s), local_.excess(1, s), local_.excess(2, s)};
+        fixed::NormalisedVector way{};
+        if (fixed::normalise(excess, way) && fixed::dot(way.direction, outward) > least_leaning) {
+            add_nearest(s, feature);
+        }
+    }
+
+    void add_nearest(std::int64_t s, std::uint32_t feature) {
+        add(s,
+            {local_.at(0, s) - local_.excess(0, s), local_.at(1, s) - local_.excess(1, s),
+             local_.at(2, s) - local_.excess(2, s)},
+            feature);
     }
 
     void touch_face(const Face& face, std::int64_t low, std::int64_t high) {
