@@ -305,6 +305,17 @@ std::uint32_t end_of_bundle(const RigidScene& scene, std::uint32_t first) {
     return end - first < least_trees_in_lanes ? first + 1 : end;
 }
 
+// Within what there is. Every lane in use is written before it is read; those that are not are cleared.
+void make_room(RigidScene& scene, const FigureBundle& bundle, std::uint32_t bodies) {
+    if (bundle.end - bundle.first == tree_lanes) {
+        scene.wide_bodies.extend_reserved(bodies);
+        scene.wide_joints.extend_reserved(bodies - 1);
+    } else {
+        static_cast<void>(scene.wide_bodies.resize(bundle.first_body + bodies));
+        static_cast<void>(scene.wide_joints.resize(bundle.first_joint + bodies - 1));
+    }
+}
+
 } // namespace
 
 void find_bundles(RigidScene& scene) {
@@ -320,8 +331,7 @@ void find_bundles(RigidScene& scene) {
         scene.figure_bundles.push_reserved(bundle);
         if (bundle.is_wide()) {
             const std::uint32_t bodies = body_count(*only_tree(scene, scene.figure_ranges[first]));
-            static_cast<void>(scene.wide_bodies.resize(bundle.first_body + bodies)); // within their room
-            static_cast<void>(scene.wide_joints.resize(bundle.first_joint + bodies - 1));
+            make_room(scene, bundle, bodies);
             WideTrees(scene, bundle).set_shape();
         }
         first = end;
