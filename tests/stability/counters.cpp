@@ -139,6 +139,6 @@ TEST_CASE("lost_events: more than there is room for") {
     for (int tick = 0; tick < 60 && world.counters().lost_events == 0; ++tick) {
         world.step();
     }
-    expect_count("lost_events", 16, 16, world.counters().lost_events);
-    CHECK(lks_world_event_count(world) == 4); // each of the ten begins, and hits the ground
+    expect_count("lost_events", 26, 26, world.counters().lost_events);
+    CHECK(lks_world_event_count(world) == 4); // each of the ten begins, hits the ground and loads it
 }
