@@ -11,10 +11,8 @@
 
 namespace support {
 
-inline lks_transform turned_about_x(double x, double y, double z, double turned) {
-    lks_transform transform{fixed(x, y, z), {}};
-    REQUIRE(lks_rotation_from_axis_angle(1, 0, 0, turned, &transform.rotation) == LKS_OK);
-    return transform;
+inline lks_transform turned_about_x(double x, double y, double z, double degrees) {
+    return {fixed(x, y, z), about(1, 0, 0, degrees)};
 }
 
 inline constexpr std::uint32_t humanoid_joints = LKS_HUMANOID_BONES - 1;

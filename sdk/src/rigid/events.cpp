@@ -86,15 +86,22 @@ public:
             const PairMemory before = take(scene_.memories, old_, pair);
             const PairMemory now = take(scene_.next_memories, new_, pair);
             const bool begins = !before.touches && (pushes.given != 0 || now.touches);
+            if (!begins && !before.touches) {
+                continue; // they are only near
+            }
             if (begins) {
                 const std::int64_t whole = fixed::saturating_add(pushes.given, pushes.to_come);
                 report(pair, LKS_EVENT_CONTACT_BEGIN, impulse_of(pair, whole));
             }
-            if (begins || before.touches) {
-                tell_hit(pair, pushes, before, now);
+            const std::int64_t load = impulse_of(pair, of_tick(now));
+            const bool was_loaded = before.touches && reaches_threshold(impulse_of(pair, of_tick(before)));
+            if (!was_loaded) {
+                tell_hit(pair, pushes, before, now, load);
             }
-            tell_load(pair, before, now);
-            if (!now.touches && (before.touches || begins)) {
+            if (was_loaded != (now.touches && reaches_threshold(load))) {
+                report(pair, was_loaded ? LKS_EVENT_CONTACT_UNLOADED : LKS_EVENT_CONTACT_LOADED, load);
+            }
+            if (!now.touches) {
                 report(pair, LKS_EVENT_CONTACT_END, 0);
             }
         }
@@ -115,35 +122,22 @@ private:
         return least;
     }
 
-    void tell_hit(const Pair& pair, const PairPushes& pushes, const PairMemory& before,
-                  const PairMemory& now) {
-        if (is_loaded(pair, before)) {
-            return;
-        }
-        const std::int64_t least = world_.event_log.least_impulse;
+    bool reaches_threshold(std::int64_t impulse) const { return impulse >= world_.event_log.least_impulse; }
+
+    // `load`: the impulse of a tick that pushes as its last substep.
+    void tell_hit(const Pair& pair, const PairPushes& pushes, const PairMemory& before, const PairMemory& now,
+                  std::int64_t load) {
         std::int64_t speed = pushes.given;
         if (before.last > now.last) {
             speed = fixed::saturating_add(speed, before.last - now.last);
         }
-        if (impulse_of(pair, of_tick(now)) >= least) {
+        if (reaches_threshold(load)) {
             speed = fixed::saturating_add(speed, pushes.to_come);
         }
         const std::int64_t impulse = impulse_of(pair, speed);
-        if (impulse >= least) {
+        if (reaches_threshold(impulse)) {
             report(pair, LKS_EVENT_CONTACT_HIT, impulse);
         }
-    }
-
-    void tell_load(const Pair& pair, const PairMemory& before, const PairMemory& now) {
-        const bool was_loaded = is_loaded(pair, before);
-        if (is_loaded(pair, now) != was_loaded) {
-            report(pair, was_loaded ? LKS_EVENT_CONTACT_UNLOADED : LKS_EVENT_CONTACT_LOADED,
-                   impulse_of(pair, of_tick(now)));
-        }
-    }
-
-    bool is_loaded(const Pair& pair, const PairMemory& memory) const {
-        return memory.touches && impulse_of(pair, of_tick(memory)) >= world_.event_log.least_impulse;
     }
 
     // As if it had pushed all the time as in its last substep.
