@@ -31,11 +31,11 @@ public:
         joints_.insert(joints_.end(), joints, joints + humanoid_joints);
     }
 
-    // Thirty above a pit, face down, five abreast, layers across each other, and each aside by what
+    // Five a layer above a pit, face down and abreast, layers across each other, and each aside by what
     // `aside()` gives, metres.
     template <typename Aside>
-    void add_pile(const Aside& aside) {
-        for (int layer = 0; layer < 6; ++layer) {
+    void add_pile(int layers, const Aside& aside) {
+        for (int layer = 0; layer < layers; ++layer) {
             for (int i = 0; i < 5; ++i) {
                 const bool across = layer % 2 == 1;
                 const double beside = 0.56 * (i - 2) + 0.04 * layer - 0.1 + aside();
