@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
+#include "memory/sort_numbers.h"
 #include "rigid/articulation.h"
 #include "rigid/body_roots.h"
 
@@ -53,7 +54,7 @@ public:
             }
         }
         mark_attached();
-        std::sort(scene_.tree_links.begin(), scene_.tree_links.end());
+        sort_numbers(scene_.tree_links, scene_.sorting);
         std::size_t end = 0;
         for (std::size_t i = 0; i < scene_.tree_links.size(); i = end) {
             const std::uint32_t body = body_of(scene_.tree_links[i]);

@@ -40,8 +40,7 @@ struct Swing {
     std::int64_t limit;
 };
 
-Swing measure_swing(const Joint& joint, const Body& a, const Body& b) {
-    const auto [u, v] = axes_of(joint, a, b);
+Swing measure_swing(const Joint& joint, const Body& a, const Direction& u, const Direction& v) {
     fixed::NormalisedVector way{};
     if (!fixed::normalise(sines(u, v), way)) {
         fixed::normalise(fixed::some_across(u), way);
@@ -65,7 +64,7 @@ bool find_swing(const Joint& joint, const Body& a, const Body& b, Swing& swing) 
     if (fixed::dot(u, v) >= joint.constants.swing_cosine && joint.swing_push == 0) {
         return false;
     }
-    swing = measure_swing(joint, a, b);
+    swing = measure_swing(joint, a, u, v);
     return true;
 }
 
@@ -334,7 +333,8 @@ std::uint32_t limit_rows(const Joint& joint, const Body& a, const Body& b, bool 
     }
     const JointConstants& c = joint.constants;
     if (c.swing_limited) {
-        Swing swing = measure_swing(joint, a, b);
+        const auto [u, v] = axes_of(joint, a, b);
+        Swing swing = measure_swing(joint, a, u, v);
         if (in_substep) {
             turn_to_push(joint, swing);
         }
