@@ -211,6 +211,78 @@ TEST_CASE("a contact is loaded by a weight over the threshold, asleep too, and u
     }
 }
 
+// What the game puts elsewhere, or makes another, has parted for who counts touches, too.
+TEST_CASE(
+    "contacts of what is put elsewhere or becomes kinematic end and are unloaded once, and begin once") {
+    enum class Change { far_away, a_millimetre, by_pose, lower_kinematic, both_kinematic, onto_ground };
+    for (const Change change : {Change::far_away, Change::a_millimetre, Change::by_pose,
+                                Change::lower_kinematic, Change::both_kinematic, Change::onto_ground}) {
+        for (const bool asleep : {false, true}) {
+            CAPTURE(static_cast<int>(change));
+            CAPTURE(asleep);
+            World world(world_def(60, 8));
+            add_ground(world);
+            const auto add = [&](double height, double density) {
+                lks_body_def def = lks_default_body_def();
+                def.never_sleeps = asleep ? 0 : 1;
+                lks_body_shape shape = box_shape(0.1, 0.1, 0.1);
+                shape.density = fixed(density);
+                return add_body(world, shape, fixed(0, height, 0), def);
+            };
+            // The lower one is lighter: kinematic, its contact with the other counts in another mass.
+            const lks_body_id lower = add(0.1, 500);
+            const lks_body_id upper = add(0.3, 1000);
+            record(world, LKS_ALL_EVENTS, 0.5 * mass_of(world, lower) * 9.81 / 60);
+            std::vector<lks_event> all = run(world, 200);
+            CHECK((lks_world_awake_body_count(world) == 0) == asleep);
+            const auto open = [&](lks_event_kind begin, lks_event_kind end) {
+                return static_cast<int>(only(all, begin).size()) - static_cast<int>(only(all, end).size());
+            };
+            CHECK(open(LKS_EVENT_CONTACT_BEGIN, LKS_EVENT_CONTACT_END) == 2);
+            CHECK(open(LKS_EVENT_CONTACT_LOADED, LKS_EVENT_CONTACT_UNLOADED) == 2);
+            const std::size_t begins = only(all, LKS_EVENT_CONTACT_BEGIN).size();
+            const lks_transform aside = at(30, 5, 0);
+            switch (change) {
+            case Change::far_away:
+                REQUIRE(lks_body_set_transform(world, upper, aside) == LKS_OK);
+                break;
+            case Change::a_millimetre:
+                REQUIRE(lks_body_set_transform(world, upper, at(0.001, 0.3, 0)) == LKS_OK);
+                break;
+            case Change::by_pose:
+                REQUIRE(lks_ragdoll_set_pose(world, &upper, 1, &aside, nullptr) == LKS_OK);
+                break;
+            case Change::both_kinematic:
+                REQUIRE(lks_body_set_kind(world, upper, LKS_BODY_KINEMATIC) == LKS_OK);
+                [[fallthrough]];
+            case Change::lower_kinematic:
+                REQUIRE(lks_body_set_kind(world, lower, LKS_BODY_KINEMATIC) == LKS_OK);
+                break;
+            case Change::onto_ground:
+                REQUIRE(lks_body_set_transform(world, upper, at(3, 0.1, 0)) == LKS_OK);
+                break;
+            }
+            // Known in what is saved meanwhile, too.
+            const Image image = world.save();
+            for (int round = 0; round < 2; ++round) {
+                const std::vector<lks_event> before = all;
+                const std::vector<lks_event> more = run(world, 10);
+                all.insert(all.end(), more.begin(), more.end());
+                const int left = change == Change::a_millimetre || change == Change::onto_ground ? 2
+                                 : change == Change::both_kinematic                              ? 0
+                                                                                                 : 1;
+                CHECK(open(LKS_EVENT_CONTACT_BEGIN, LKS_EVENT_CONTACT_END) == left);
+                CHECK(open(LKS_EVENT_CONTACT_LOADED, LKS_EVENT_CONTACT_UNLOADED) == left);
+                // What touches the same one as before does not begin again.
+                CHECK(only(all, LKS_EVENT_CONTACT_BEGIN).size() ==
+                      begins + (change == Change::onto_ground ? 1 : 0));
+                REQUIRE(lks_world_load(world, image.data(), image.size()) == LKS_OK);
+                all = before;
+            }
+        }
+    }
+}
+
 TEST_CASE("what breaks says so, with the force that broke it") {
     World world(world_def(60, 8));
     const lks_body_id anchor = add_anchor(world, {});

@@ -78,6 +78,32 @@ TEST_CASE("a pose that was read is the one that was set, and velocities follow f
     CHECK(std::abs(state_of(world, puppet.bodies[0]).spin.y - pi) < 1e-3);
 }
 
+TEST_CASE("what turns from one pose to the next turns on by the same angle a tick") {
+    for (const std::uint32_t substeps : {1u, 2u, 8u, 20u}) {
+        for (const double degrees : {1e-4, 1.0, 10.0, 30.0, 60.0, 90.0, 120.0}) {
+            CAPTURE(substeps);
+            CAPTURE(degrees);
+            if (std::tan(degrees / 2 / substeps * pi / 180) > 0.5) {
+                continue; // faster than bodies may spin
+            }
+            World world(weightless(substeps));
+            lks_body_def def = lks_default_body_def();
+            def.angular_damping = 0;
+            const lks_body_id ball = add_body(world, ball_shape(0.2), {}, def);
+            lks_transform before = at(0, 0, 0);
+            lks_transform now = before;
+            now.rotation = about(0.6, 0, 0.8, degrees);
+            REQUIRE(lks_ragdoll_set_pose(world, &ball, 1, &now, &before) == LKS_OK);
+            world.step();
+            const lks_rotation back{-now.rotation.x, -now.rotation.y, -now.rotation.z, now.rotation.w};
+            const lks_rotation turned = product(state_of(world, ball).rotation, back);
+            const double sine = std::hypot(turned.x, turned.y, turned.z);
+            const double angle = 2 * std::atan2(sine, turned.w) * 180 / pi;
+            CHECK(std::abs(angle - degrees) < 1e-5 * degrees + 1e-6);
+        }
+    }
+}
+
 TEST_CASE("an animated figure becomes a ragdoll at the speed that it had, and can be animated again") {
     World world(world_def(60, 8));
     Puppet puppet(world);

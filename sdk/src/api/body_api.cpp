@@ -7,6 +7,7 @@
 #include "collide/filter.h"
 #include "collide/saturation.h"
 #include "rigid/body_motion.h"
+#include "rigid/contact_memory.h"
 #include "rigid/make_body.h"
 #include "rigid/sleep.h"
 
@@ -39,7 +40,7 @@ void change_kind(lks_world& world, std::uint32_t index, std::uint32_t kind) {
     RigidScene& scene = world.rigid;
     Body& body = scene.bodies[index];
     wake_neighbours(scene, index);
-    scene.forget_contacts(index);
+    forget_contacts(scene, index);
     scene.definitions[index].kind = kind;
     scene.descriptions[index].kind = kind;
     apply_description(body, scene.descriptions[index]);
@@ -146,7 +147,7 @@ lks_result lks_world_remove_body(lks_world* world, lks_body_id body) {
     }
     RigidScene& scene = world->rigid;
     wake_neighbours(scene, body.index);
-    scene.forget_contacts(body.index);
+    drop_contacts(scene, body.index);
     forget_joints(scene, body.index);
     forget_attachments(scene, body.index, false);
     scene.bodies[body.index] = Body{};
@@ -189,7 +190,7 @@ lks_result lks_body_set_transform(lks_world* world, lks_body_id body, lks_transf
     RigidScene& scene = world->rigid;
     wake_neighbours(scene, body.index);
     wake(scene.bodies[body.index]);
-    scene.forget_contacts(body.index);
+    forget_contacts(scene, body.index);
     place_body(scene.bodies[body.index], scene.descriptions[body.index], to_vec3(transform.position),
                fixed::normalise(to_rotation(transform.rotation)));
     return LKS_OK;

@@ -5,6 +5,7 @@
 
 #include "api/checks.h"
 #include "api/collider_checks.h"
+#include "rigid/contact_memory.h"
 #include "rigid/sleep.h"
 
 using namespace lks;
@@ -128,7 +129,7 @@ lks_result lks_world_remove_collider(lks_world* world, lks_collider_id collider)
     ColliderSlot& slot = world->colliders[collider.index];
     slot.used = false;
     wake_who_meets(world->rigid, slot.collider.filter);
-    world->rigid.forget_contacts(collider.index | other_is_collider);
+    drop_contacts(world->rigid, collider.index | other_is_collider);
     slot.collider = ColliderState{};
     slot.generation = next_generation(slot.generation);
     return LKS_OK;

@@ -442,7 +442,7 @@ private:
         contact.restitution = std::max(own.restitution, other.restitution);
         std::span<const ContactPush> old_pushes;
         Direction side = no_side;
-        if (known) {
+        if (known && scene_.memories[next_memory_].forgotten == 0) {
             const ContactMemory& memory = scene_.memories[next_memory_];
             old_pushes = {memory.pushes, memory.count};
             side = keeps_side(body_a, body_b) ? memory.normal : no_side;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rigid/contact_memory.h"
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"
 #include "rigid/make_body.h"
@@ -65,6 +66,7 @@ struct PairPushes {
 // What is remembered of a pair at the end of a tick.
 struct PairMemory {
     bool touches = false;
+    bool forgotten = false;
     std::int64_t last = 0; // World m/s: what it gave in the last substep
 };
 
@@ -94,9 +96,9 @@ public:
                 report(pair, LKS_EVENT_CONTACT_BEGIN, impulse_of(pair, whole));
             }
             const std::int64_t load = impulse_of(pair, of_tick(now));
-            const bool was_loaded = before.touches && reaches_threshold(impulse_of(pair, of_tick(before)));
+            const bool was_loaded = before.touches && reaches_threshold(load_before(pair, before));
             if (!was_loaded) {
-                tell_hit(pair, pushes, before, now, load);
+                tell_hit(pair, pushes, before.forgotten ? PairMemory{} : before, now, load);
             }
             if (was_loaded != (now.touches && reaches_threshold(load))) {
                 report(pair, was_loaded ? LKS_EVENT_CONTACT_UNLOADED : LKS_EVENT_CONTACT_LOADED, load);
@@ -162,6 +164,7 @@ private:
         PairMemory of_pair;
         for (; at < memories.size() && pair_of(memories[at].key) == pair; ++at) {
             of_pair.touches = true;
+            of_pair.forgotten = memories[at].forgotten != 0;
             for (std::uint32_t i = 0; i < memories[at].count; ++i) {
                 const std::int64_t push = memories[at].pushes[i].normal;
                 of_pair.last =
@@ -172,18 +175,20 @@ private:
     }
 
     // World N·s. Speeds count in the greater inverse mass of the two.
-    std::int64_t impulse_of(const Pair& pair, std::int64_t speed) const {
-        const Body& a = scene_.bodies[pair.body_a];
-        Scaled greater = inverse_mass(a);
-        if (pair.other < other_is_collider) {
-            const Scaled other = inverse_mass(scene_.bodies[pair.other]);
-            greater = greater < other ? other : greater;
-        }
+    static std::int64_t impulse(std::int64_t speed, const Scaled& greater) {
         if (greater.is_zero()) {
             return 0;
         }
         return to_strength(Scaled::from_fixed(static_cast<std::uint64_t>(speed), world_fraction_bits) /
                            greater);
+    }
+    std::int64_t impulse_of(const Pair& pair, std::int64_t speed) const {
+        return impulse(speed, greater_inverse_mass(scene_, pair.body_a, pair.other));
+    }
+    std::int64_t load_before(const Pair& pair, const PairMemory& before) const {
+        return before.forgotten
+                   ? impulse(of_tick(before), greater_dynamic_inverse_mass(scene_, pair.body_a, pair.other))
+                   : impulse_of(pair, of_tick(before));
     }
 
     void report(const Pair& pair, lks_event_kind kind, std::int64_t impulse) {

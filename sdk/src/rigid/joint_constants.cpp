@@ -28,12 +28,20 @@ Direction frame_axis(const fixed::Rotation& frame, int axis) {
     return {m.m[0][axis], m.m[1][axis], m.m[2][axis]};
 }
 
+// Of an ellipse, degrees: about a thinner one a swing would find no way along it.
+constexpr lks_fixed least_half_axis = LKS_FIXED_ONE / 20;
+
 void set_swing(JointConstants& c, const JointDescription& d) {
-    const std::int64_t z = d.swing_limit_z < 0 ? d.swing_limit : d.swing_limit_z;
-    c.swing_limited = d.kind == LKS_JOINT_BALL && std::min(d.swing_limit, z) < half_circle_degrees;
-    c.swing_round = z == d.swing_limit;
-    c.swing_cosine = sine_and_cosine(std::min(d.swing_limit, z), world_fraction_bits).cosine;
-    c.swing_limit = to_radians(d.swing_limit);
+    lks_fixed x = d.swing_limit;
+    lks_fixed z = d.swing_limit_z < 0 ? x : d.swing_limit_z;
+    c.swing_limited = d.kind == LKS_JOINT_BALL && std::min(x, z) < half_circle_degrees;
+    c.swing_round = z == x;
+    if (!c.swing_round) {
+        x = std::max(x, least_half_axis);
+        z = std::max(z, least_half_axis);
+    }
+    c.swing_cosine = sine_and_cosine(std::min(x, z), world_fraction_bits).cosine;
+    c.swing_limit = to_radians(x);
     c.swing_limit_z = to_radians(z);
     c.across_a[0] = frame_axis(d.frame_a, 0);
     c.across_a[1] = frame_axis(d.frame_a, 2);

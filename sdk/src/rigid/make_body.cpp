@@ -68,6 +68,10 @@ std::int64_t minor(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t 
         fixed::multiply_signed(a, b) - fixed::multiply_signed(c, d), world_fraction_bits));
 }
 
+InverseMass made_inverse_mass(const BodyDescription& description) {
+    return to_inverse_mass(Scaled::from_u64(1) / description.properties.mass);
+}
+
 } // namespace
 
 BodyDefinition plain_definition(const lks_body_def& def) {
@@ -138,9 +142,8 @@ BodyDescription describe_body(const BodyDefinition& definition) {
 }
 
 void apply_description(Body& body, const BodyDescription& description) {
-    body.inverse_mass = description.kind == LKS_BODY_KINEMATIC
-                            ? InverseMass{0, 0}
-                            : to_inverse_mass(Scaled::from_u64(1) / description.properties.mass);
+    body.inverse_mass =
+        description.kind == LKS_BODY_KINEMATIC ? InverseMass{0, 0} : made_inverse_mass(description);
     body.scale = description.properties.scale;
     body.inverse_shift = description.properties.inverse_shift;
     body.inverse_inertia = description.properties.inverse_inertia;
@@ -189,6 +192,10 @@ Scaled to_scaled(const InverseMass& w) {
 
 Scaled inverse_mass(const Body& body) {
     return to_scaled(body.inverse_mass);
+}
+
+Scaled dynamic_inverse_mass(const BodyDescription& description) {
+    return to_scaled(made_inverse_mass(description));
 }
 
 Scaled greater_inverse_mass(const PairShares& shares, const Body& a, const Body& b) {

@@ -22,6 +22,8 @@ fixed::Vec3 frame_position(const Body& body, const BodyDescription& description)
 InverseMass to_inverse_mass(const fixed::Scaled& value);
 fixed::Scaled to_scaled(const InverseMass& inverse_mass);
 fixed::Scaled inverse_mass(const Body& body);
+// Also of one that is kinematic now.
+fixed::Scaled dynamic_inverse_mass(const BodyDescription& description);
 // What the shares of two bodies are shares of.
 fixed::Scaled greater_inverse_mass(const PairShares& shares, const Body& a, const Body& b);
 // N·s at a lever from the centre of mass, world axes.

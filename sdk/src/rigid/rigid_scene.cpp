@@ -101,16 +101,6 @@ bool RigidScene::reserve_figures(std::size_t body_count, std::size_t joint_count
            sorting.reserve(std::max(parts, pair_capacity(body_count)));
 }
 
-void RigidScene::forget_contacts(std::uint32_t other) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < memories.size(); ++i) {
-        if (memories[i].key.body_a != other && memories[i].key.other != other) {
-            memories[kept++] = memories[i];
-        }
-    }
-    static_cast<void>(memories.resize(kept)); // never grows
-}
-
 void RigidScene::free_joint(std::uint32_t index) {
     free_slot(joint_slots[index]);
     joints[index] = Joint{};

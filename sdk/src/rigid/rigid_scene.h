@@ -21,12 +21,13 @@
 namespace lks {
 
 // What a contact hands on to the next tick. State: kept in ascending order of keys, and only where something
-// pushes.
+// pushes. What the game has put elsewhere, or made another, pushes nothing on; until the next tick has told
+// its end it is known yet, with pushes as if both bodies were dynamic.
 struct ContactMemory {
     ContactKey key;
     std::uint32_t count;
     fixed::Direction normal; // of its last substep
-    std::uint32_t reserved;  // 0
+    std::uint32_t forgotten; // 0 or 1
     ContactPush pushes[greatest_point_count];
 };
 
@@ -148,8 +149,6 @@ struct RigidScene {
     std::size_t joint_room() const { return joint_room_; }
     std::size_t attachment_room() const { return attachment_room_; }
     std::size_t object_room() const { return object_room_; }
-    // What has pushed a body, or a collider | other_is_collider.
-    void forget_contacts(std::uint32_t other);
     void free_joint(std::uint32_t index);
     void free_attachment(std::uint32_t index);
     // After joints came or went: which bodies have any, and which don't collide.

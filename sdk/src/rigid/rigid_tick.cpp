@@ -1,5 +1,7 @@
 #include "rigid/rigid_tick.h"
 
+#include <algorithm>
+
 #include "fixed/formats.h"
 #include "rigid/articulation.h"
 #include "rigid/body_motion.h"
@@ -26,6 +28,7 @@ public:
         wake_islands(world_);
         const bool moves = anything_moves();
         if (!moves && scene_.coupled.empty()) {
+            end_forgotten_contacts();
             return;
         }
         prepare();
@@ -178,6 +181,15 @@ private:
         });
     }
 
+    // Where nobody moves.
+    void end_forgotten_contacts() {
+        const auto is_forgotten = [](const ContactMemory& memory) { return memory.forgotten != 0; };
+        if (std::any_of(scene_.memories.begin(), scene_.memories.end(), is_forgotten)) {
+            scene_.contacts.clear();
+            remember_contacts();
+        }
+    }
+
     // What pushed in this tick, and what holds sleeping bodies, in the order of keys.
     void remember_contacts() {
         scene_.next_memories.clear();
@@ -198,7 +210,7 @@ private:
             const ContactKey& key = scene_.memories[old].key;
             const bool awake = scene_.bodies[key.body_a].is_awake() ||
                                (key.other < other_is_collider && scene_.bodies[key.other].is_awake());
-            if (!awake) {
+            if (!awake && scene_.memories[old].forgotten == 0) {
                 add_memory(scene_.memories[old]);
             }
         }

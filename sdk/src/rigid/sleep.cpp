@@ -27,7 +27,7 @@ BodyRoots find_islands(RigidScene& scene) {
     BodyRoots roots(scene, scene.islands);
     roots.join_by_joints();
     for (const ContactMemory& memory : scene.memories) {
-        if (memory.key.other < other_is_collider) {
+        if (memory.forgotten == 0 && memory.key.other < other_is_collider) {
             roots.join(memory.key.body_a, memory.key.other);
         }
     }
@@ -52,6 +52,9 @@ void for_each_disturbed(const lks_world& world, const Use& use) {
         }
     };
     for (const ContactMemory& memory : scene.memories) {
+        if (memory.forgotten != 0) {
+            continue;
+        }
         look(memory.key.body_a, memory.key.other);
         if (memory.key.other < other_is_collider) {
             look(memory.key.other, memory.key.body_a);
@@ -168,6 +171,9 @@ void wake_who_meets(RigidScene& scene, const lks_filter& filter) {
 
 void wake_neighbours(RigidScene& scene, std::uint32_t other) {
     for (const ContactMemory& memory : scene.memories) {
+        if (memory.forgotten != 0) {
+            continue;
+        }
         if (memory.key.other == other) {
             wake(scene.bodies[memory.key.body_a]);
         } else if (memory.key.body_a == other && memory.key.other < other_is_collider) {

@@ -125,7 +125,7 @@ bool RigidChecks::contact(const ContactMemory& memory, const Array<Loaded>& bodi
                                   : key.other > key.body_a && exists(key.other);
     return exists(key.body_a) && other_exists && key.shapes < LKS_MAX_BODY_SHAPES * LKS_MAX_BODY_SHAPES &&
            memory.count >= 1 && memory.count <= greatest_point_count && is_direction(memory.normal) &&
-           memory.reserved == 0;
+           memory.forgotten <= 1;
 }
 
 bool RigidChecks::pushes(const unsigned char* at, std::uint32_t count) const {

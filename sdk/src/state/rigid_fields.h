@@ -166,7 +166,7 @@ void contact_fields(Io& io, Memory& memory) {
     io.i32(memory.normal.x);
     io.i32(memory.normal.y);
     io.i32(memory.normal.z);
-    io.u32(memory.reserved);
+    io.u32(memory.forgotten);
 }
 
 template <typename Io>
