@@ -18,7 +18,7 @@ private:
     void configure(lks_world_def& def) override { def.substeps = 8; }
 
     bool build() override {
-        camera_ = {{4.6f, 2.9f, 6.8f}, {1.9f, 1.55f, 0.0f}, 42.0f, {0.35f, 0.8f, 0.55f}};
+        camera_ = {{4.2f, 2.6f, 5.3f}, {1.55f, 1.35f, 0.0f}, 40.0f, {0.35f, 0.8f, 0.55f}};
         return add_ground(rgb(0xa19e99)) && add_stairs() && add_mannequin();
     }
 
@@ -47,8 +47,8 @@ private:
         def.bones = mannequin.bones;
         def.bone_count = LKS_HUMANOID_BONES;
         def.transform.position = millimetres(-250, rise * step_count + 2, 0);
-        def.transform.rotation = turn_about({0, LKS_FIXED_ONE, 0}, LKS_FIXED_RATIO(1, 5));
-        def.velocity = millimetres(900, 0, 100);
+        def.transform.rotation = turn_about({0, LKS_FIXED_ONE, 0}, LKS_FIXED_RATIO(3, 10));
+        def.velocity = millimetres(1800, 0, 100);
         lks_body_id ids[LKS_HUMANOID_BONES];
         if (!add_ragdoll("mannequin", def, look.bones, ids)) {
             return false;
@@ -56,7 +56,7 @@ private:
         // A push between the shoulders.
         lks_vec3 chest = place(millimetres(-350, rise * step_count + 1400, 0));
         return accept(
-            lks_body_apply_impulse(world(), ids[LKS_HUMANOID_CHEST], millimetres(60000, 0, 8000), chest));
+            lks_body_apply_impulse(world(), ids[LKS_HUMANOID_CHEST], millimetres(140000, 0, -20000), chest));
     }
 };
 

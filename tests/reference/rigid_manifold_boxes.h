@@ -54,7 +54,9 @@ std::vector<FacePoint<Scalar>> four_of(const std::vector<FacePoint<Scalar>>& pol
     // In micrometres, or rather 2^-20 m, as the SDK has them: the corners of an edge that is parallel to the
     // line are equally far from it.
     const auto whole = [](Scalar length) { return std::floor(length * Scalar(0x1p20)); };
-    const Point first = best([](const Point& p) { return p.depth; });
+    // Of those that are next to as deep the first.
+    const Scalar deepest = best([](const Point& p) { return p.depth; }).depth;
+    const Point first = best([&](const Point& p) { return std::min(p.depth, deepest - Scalar(1e-4)); });
     const Point second = best([&](const Point& p) {
         const Scalar u = whole(p.u - first.u);
         const Scalar v = whole(p.v - first.v);

@@ -104,7 +104,7 @@ TEST_CASE("dropped_ticks: time beyond the cap of a call") {
     expect_count("dropped_ticks", 52, 52, world.counters().dropped_ticks);
 }
 
-TEST_CASE("lost_contacts: more pairs than a tick has room for, and the crowd still comes to rest") {
+TEST_CASE("lost_contacts: more pairs than a tick has room for, and the crowd parts all the same") {
     World world(world_def(60, 10));
     add_ground(world);
     // All in one place: 19,900 pairs.

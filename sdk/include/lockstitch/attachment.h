@@ -3,7 +3,9 @@
  *
  * What is attached goes through each substep together with what it is attached to: cloth or rope first, then
  * attachments in the order of their indices, joints and contacts, and attachments again. A body that an
- * attachment holds does not fall asleep. An attached vertex does not collide with its body.
+ * attachment holds does not fall asleep. An attached vertex does not collide with its body. A rigid one to
+ * what can't move is refused where a pin, or another one, holds the vertex there already; a body that becomes
+ * kinematic is not asked, and of two that hold one vertex then only one may.
  *
  * Method: extended position based dynamics (Macklin et al. 2016, eq. 26), in all three directions at once.
  */

@@ -10,6 +10,9 @@
  *   fixed     nothing moves
  *   distance  the points stay from distance_min to distance_max apart
  *
+ * Joints are not checked against each other: what two of them hold at places apart comes to rest at one of
+ * them, or between.
+ *
  * Method: extended position based dynamics (Müller et al. 2020); the points are brought together by a solve
  * in all three directions at once.
  */
@@ -99,7 +102,7 @@ LKS_API lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lk
                                   lks_vec3* torque);
 
 /* Of a ball joint or a hinge. While it is on the joint's friction is not. A motor that differs from the
- * present one wakes both bodies. */
+ * present one wakes both bodies, unless neither turns anything (max_torque 0). */
 LKS_API lks_result lks_joint_set_motor(lks_world* world, lks_joint_id joint, const lks_motor* motor);
 LKS_API lks_result lks_joint_motor(const lks_world* world, lks_joint_id joint, lks_motor* motor);
 

@@ -62,14 +62,17 @@ void set_motor(lks_world& world, Joint& joint, const lks_motor& motor) {
         joint.motor_target == target) {
         return;
     }
+    const bool is_on = d.motor_torque != 0 || motor.max_torque != 0;
     d.motor_torque = motor.max_torque;
     d.motor_response = motor.response;
     joint.motor_target = target;
     Body& a = world.rigid.bodies[d.body_a];
     Body& b = world.rigid.bodies[d.body_b];
     joint.constants = make_joint_constants(d, a, b, world.rate);
-    wake(a);
-    wake(b);
+    if (is_on) {
+        wake(a);
+        wake(b);
+    }
 }
 
 } // namespace

@@ -44,7 +44,7 @@ lks_result check_joint_ranges(const lks_world& world, const lks_joint_def& def) 
     }
     const Number numbers[] = {
         {"swing_limit", " degrees", def.swing_limit, 0, half_circle},
-        {"swing_limit_z", " degrees", std::max<lks_fixed>(def.swing_limit_z, -1), -1, half_circle},
+        {"swing_limit_z", " degrees", std::max<lks_fixed>(def.swing_limit_z, 0), 0, half_circle},
         {"twist_max", " degrees", def.twist_max, -half_circle, half_circle},
         {"twist_min", " degrees", def.twist_min, -half_circle, def.twist_max},
         {"distance_max", " m", def.distance_max, 0, greatest_length},

@@ -11,6 +11,9 @@ namespace {
 using fixed::Direction;
 using fixed::Vec3;
 
+// A tenth of a millimetre.
+constexpr std::int64_t tolerance = (std::int64_t{1} << world_fraction_bits) / 10000;
+
 struct Corner {
     std::int64_t u, v;  // in the reference face
     std::int64_t depth; // below it, negative above
@@ -67,7 +70,8 @@ std::int64_t squared_distance(const Corner& a, const Corner& b) {
 }
 
 // Four that span as much as all: the deepest, the one furthest from it, and the furthest from their line on
-// either side.
+// either side. Of those that are next to as deep the first, so that boxes at rest keep their four from tick
+// to tick: what others have pushed would be forgotten.
 void reduce(Polygon& polygon) {
     if (polygon.count <= greatest_point_count) {
         return;
@@ -80,7 +84,8 @@ void reduce(Polygon& polygon) {
         }
         return found;
     };
-    const Corner first = c[best([](const Corner& p) { return p.depth; })];
+    const std::int64_t deepest = c[best([](const Corner& p) { return p.depth; })].depth;
+    const Corner first = c[best([&](const Corner& p) { return std::min(p.depth, deepest - tolerance); })];
     const Corner second = c[best([&](const Corner& p) { return squared_distance(first, p); })];
     const Corner third = c[best([&](const Corner& p) { return area(first, second, p); })];
     const Corner fourth = c[best([&](const Corner& p) { return -area(first, second, p); })];
@@ -306,9 +311,6 @@ private:
         add_point(out_, p + fixed::scale(u, s), q + fixed::scale(v, t), 0, margin_,
                   0x80000000u | static_cast<std::uint32_t>(best_edge_));
     }
-
-    // A tenth of a millimetre.
-    static constexpr std::int64_t tolerance = (std::int64_t{1} << world_fraction_bits) / 10000;
 
     const Piece& a_;
     const Piece& b_;
