@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/bodies.h"
+#include "support/overlaps.h"
 
 namespace support {
 
@@ -76,12 +77,21 @@ public:
     // Kinetic and potential.
     double energy() const { return whole_energy(world_, bodies_.data(), bodies_.size()); }
 
-    // How deep any of them is in another, or in what stands about, now: of balls along capsules' axes and of
-    // boxes' corners. Neighbours share their joint's place.
+    // How deep any of them is in another, or in what stands about, now. Neighbours share their joint's place.
     double overlap() const {
-        double deepest = 0;
+        std::vector<Solid> solids;
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
-            deepest = std::max(deepest, overlap_of(i));
+            solids.push_back(solid_of(human_.shapes[i % LKS_HUMANOID_BONES], state_of(world_, bodies_[i])));
+        }
+        double deepest = 0;
+        for (std::size_t i = 0; i < solids.size(); ++i) {
+            deepest = std::max(deepest, overlap_with_colliders(i, solids[i]));
+            for (std::size_t j = 0; j < i; ++j) {
+                const double apart = (solids[i].centre - solids[j].centre).length();
+                if (apart < solids[i].reach() + solids[j].reach() && !are_neighbours(i, j)) {
+                    deepest = std::max(deepest, -gap_between(solids[i], solids[j]));
+                }
+            }
         }
         return deepest;
     }
@@ -93,39 +103,35 @@ public:
     double limit_now() const { return limit_now_; }
 
 private:
-    double overlap_of(std::size_t body) const {
-        const lks_body_shape& shape = human_.shapes[body % LKS_HUMANOID_BONES];
-        const bool box = shape.shape == LKS_SHAPE_BOX;
-        const double radius = box ? 0 : metres(shape.radius);
-        const BodyState state = state_of(world_, bodies_[body]);
+    // Of balls along capsules' axes and of boxes' corners: what stands about has faces.
+    double overlap_with_colliders(std::size_t body, const Solid& solid) const {
         double deepest = 0;
         for (int i = 0; i < 8; ++i) {
-            const Vector corner{i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0};
-            const Vector half = metres(shape.half_extents);
-            const Vector point = box ? Vector{corner.x * half.x, corner.y * half.y, corner.z * half.z}
-                                     : Vector{0, metres(shape.half_length) * (2 * i / 7.0 - 1), 0};
+            const Vector corner = solid.axes[0] * (i & 1 ? solid.half.x : -solid.half.x) +
+                                  solid.axes[1] * (i & 2 ? solid.half.y : -solid.half.y) +
+                                  solid.axes[2] * (i & 4 ? solid.half.z : -solid.half.z);
+            const Vector on_axis = solid.axes[1] * (solid.half_length * (2 * i / 7.0 - 1));
             deepest =
-                std::max(deepest, radius - nearest(body, state.position + rotate(state.rotation, point)));
+                std::max(deepest, solid.radius -
+                                      nearest_collider(body, solid.centre + (solid.box ? corner : on_axis)));
         }
         return deepest;
     }
 
-    // Metres from a point of a body to what it collides with.
-    double nearest(std::size_t body, const Vector& point) const {
+    // Metres from a point of a body.
+    double nearest_collider(std::size_t body, const Vector& point) const {
         lks_query query = lks_default_query();
-        query.kinds = LKS_HIT_BIT(LKS_HIT_COLLIDER) | LKS_HIT_BIT(LKS_HIT_BODY);
+        query.kinds = LKS_HIT_BIT(LKS_HIT_COLLIDER);
         query.ignored = bodies_[body];
         query.radius = fixed(0.3);
-        lks_hit hits[128];
+        lks_hit hits[16];
         std::uint32_t count = 0;
-        REQUIRE(lks_world_overlap(world_, &query, fixed(point.x, point.y, point.z), hits, 128, &count) ==
+        REQUIRE(lks_world_overlap(world_, &query, fixed(point.x, point.y, point.z), hits, 16, &count) ==
                 LKS_OK);
-        REQUIRE(count <= 128);
+        REQUIRE(count <= 16);
         double least = 1;
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (hits[i].kind == LKS_HIT_COLLIDER || !are_neighbours(body, hits[i].body.index)) {
-                least = std::min(least, metres(hits[i].distance));
-            }
+            least = std::min(least, metres(hits[i].distance));
         }
         return least;
     }
