@@ -68,7 +68,7 @@ void measure_coupling(int rounds, Results& results) {
             run.tick(tick >= settled_after);
         }
     }
-    results.push_back({coupling_name, "ticks", "", static_cast<double>(ticks), ""});
+    results.push_back({coupling_name, ticks_title(ticks), "", static_cast<double>(ticks), ""});
     results.push_back(
         {coupling_name, "particles", "", static_cast<double>(runs.front().dressed->particles()), ""});
     for (const Run& run : runs) {

@@ -81,7 +81,7 @@ void measure_fall(const char* name, const Crowd& crowd, int rounds, Results& res
             run.tick();
         }
     }
-    results.push_back({name, "ticks", "", static_cast<double>(ticks), ""});
+    results.push_back({name, ticks_title(ticks), "", static_cast<double>(ticks), ""});
     for (const Run& run : runs) {
         results.push_back({name, "whole tick", run.name, run.milliseconds / ticks, "ms",
                            run.milliseconds / runs.front().milliseconds});
