@@ -36,6 +36,30 @@ TEST_CASE("a rod on a soft ball joint, damped or not, is within 5e-7 m after a s
     }
 }
 
+TEST_CASE("a rod that friction slows is within 1e-6 m on a soft ball joint, 1e-5 m on a soft hinge") {
+    for (const int substeps : {8, 20}) {
+        for (const lks_joint_kind kind : {LKS_JOINT_BALL, LKS_JOINT_HINGE}) {
+            RigidScene scene(with_substeps(substeps));
+            const std::size_t anchor = scene.add_anchor(fixed(0, 3, 0));
+            lks_body_def def = at_rest(fixed(0.5, 3, 0));
+            def.transform.rotation = about(0, 0, 1, 90);
+            const std::size_t rod = scene.add(capsule_shape(0.1, 0.4), def);
+            lks_joint_def hold = soft_points(1.0 / 4096, 50);
+            hold.kind = kind;
+            hold.angular_compliance = kind == LKS_JOINT_HINGE ? fixed(1.0 / 65536) : 0;
+            hold.friction = fixed(20); // N·m, of 135 that the weight turns by
+            hold.frame_a.rotation = about(1, 0, 0, 60);
+            hold.frame_b.rotation = about(0, 1, 0, -60);
+            hold.frame_b.position = fixed(0, 0.5, 0);
+            scene.join(hold, anchor, rod);
+            const bool ball = kind == LKS_JOINT_BALL;
+            const RigidBounds bounds = ball ? RigidBounds{1e-6, 1e-5, 100} : RigidBounds{1e-5, 4e-5, 30};
+            check_run((ball ? "soft ball joint, friction" : "soft hinge, friction") + substeps_name(substeps),
+                      scene, bounds, bounds);
+        }
+    }
+}
+
 TEST_CASE("a chain of soft joints, and of soft and rigid ones in turn, is within 1e-6 m after a second") {
     for (const int substeps : {8, 20}) {
         {

@@ -105,3 +105,75 @@ TEST_CASE("a soft hinge and a soft fixed joint bend across by angular compliance
 TEST_CASE("without damping of their own, too, where the body's damping stops it turning") {
     check_bent(0, {0, 12});
 }
+
+// A rod of a metre, or a box half a metre away, that sticks out level from an anchor, held by the joint's
+// friction of so many times the load.
+struct Held {
+    Held(lks_joint_def joint, bool rod, double friction, std::uint32_t substeps)
+        : world(world_def(60, substeps)) {
+        const lks_body_id anchor = add_anchor(world, {});
+        lks_body_shape shape = rod ? capsule_shape(0.04, 0.46) : box_shape(0.1, 0.1, 0.1);
+        shape.transform.rotation = about(0, 0, 1, 90);
+        lks_body_def def = lks_default_body_def();
+        def.never_sleeps = 1;
+        def.filter.mask = 0;
+        body = add_body(world, shape, fixed(0.5, 0, 0), def);
+        joint.frame_b.position = fixed(-0.5, 0, 0);
+        joint.friction = fixed(friction * mass_of(world, body) * g * 0.5);
+        id = add_joint(world, joint, anchor, body);
+    }
+    double sag() const { return -state_of(world, body).position.y; }
+
+    World world;
+    lks_body_id body{};
+    lks_joint_id id{};
+};
+
+void check_held(const lks_joint_def& joint, std::uint32_t substeps, double friction, double sunk) {
+    for (const bool rod : {true, false}) {
+        Held held(joint, rod, friction, substeps);
+        held.world.step(120);
+        const double early = held.sag();
+        held.world.step(1200);
+        // What the rigid joint takes to find its load, and by how much a soft one gives way by.
+        const double most = (rod ? 0.1 : 1.0) / (substeps * substeps) + sunk;
+        INFO(substeps << " substeps, rod " << rod << ": " << early << ", then " << held.sag() << " m");
+        CHECK(std::abs(held.sag()) < most);
+        CHECK(std::abs(held.sag() - early) < 1e-5);
+    }
+}
+
+TEST_CASE("friction holds a load on a soft joint as long as on a rigid one") {
+    for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+        for (const lks_joint_kind kind : {LKS_JOINT_BALL, LKS_JOINT_HINGE}) {
+            for (const double friction : {1.2, 5.0}) {
+                lks_joint_def joint = lks_default_joint_def();
+                joint.kind = kind;
+                joint.frame_a.rotation = joint.frame_b.rotation = about(1, 0, 0, 90);
+                check_held(joint, substeps, friction, 0);
+                joint.angular_compliance = fixed(1e-6);
+                check_held(joint, substeps, friction, 0);
+                joint.compliance = fixed(1e-6);
+                check_held(joint, substeps, friction, 2e-4);
+                joint.angular_compliance = 0;
+                check_held(joint, substeps, friction, 2e-4);
+            }
+        }
+    }
+}
+
+TEST_CASE("friction of a soft hinge that leans bears the load about its axis only") {
+    for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+        lks_joint_def joint = lks_default_joint_def();
+        joint.kind = LKS_JOINT_HINGE;
+        joint.frame_a.rotation = joint.frame_b.rotation = about(1, 0, 0, 30);
+        joint.angular_compliance = fixed(1e-5);
+        Held held(joint, true, 0.6, substeps); // half of the load is about the axis
+        held.world.step(120);
+        const double early = held.sag();
+        held.world.step(1200);
+        INFO(substeps << " substeps: " << early << ", then " << held.sag() << " m");
+        CHECK(std::abs(held.sag()) < 5e-4);
+        CHECK(std::abs(held.sag() - early) < 2e-5);
+    }
+}

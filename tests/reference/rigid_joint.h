@@ -79,7 +79,7 @@ public:
     // After the prediction.
     void prepare(const Body& body_a, const Body& body_b) {
         limits.prepare();
-        drive_.prepare();
+        drive_.prepare(body_a);
         push = keeps_push() ? push : Vec{};
         if (!is_distance() && (!in_tree || drive_.is_motor())) {
             // Where the joints before it have turned them by what they carry on.
@@ -101,6 +101,10 @@ public:
             turn_apart(body_a, body_b, turn_);
         }
         limits.push_again(body_a, body_b);
+        if (drives_before_points()) {
+            push_drive_with_points(body_a, body_b);
+            return;
+        }
         turn_apart(body_a, body_b, drive_.pushed());
         if (!in_tree) {
             push_apart(body_a, body_b, push);
@@ -135,14 +139,16 @@ public:
     // A motor turns about the joint, and a row about the centres of mass: some rounds with the points in
     // between make one of the other.
     void project(Body& body_a, Body& body_b) {
+        if (drives_before_points()) {
+            project_turn(body_a, body_b);
+            project_points(body_a, body_b);
+        }
         for (int round = 0; round < 3 && drive_.is_motor(); ++round) {
             drive_.project(body_a, body_b);
             project_points(body_a, body_b);
         }
         drive_.project(body_a, body_b);
-        if (holds_turn()) {
-            turn_ = turn_ + turn_back(body_a, body_b, left_to_turn(body_a, body_b));
-        }
+        project_turn(body_a, body_b);
         limits.project(body_a, body_b);
         if (!in_tree) {
             project_points(body_a, body_b);
@@ -223,6 +229,28 @@ private:
         const Vec before = push;
         push = points_.next_push(apart - start, apart - begin_, before);
         push_apart(body_a, body_b, push - before);
+    }
+
+    void project_turn(Body& body_a, Body& body_b) {
+        if (holds_turn()) {
+            turn_ = turn_ + turn_back(body_a, body_b, left_to_turn(body_a, body_b));
+        }
+    }
+
+    // Of a soft joint, whose points begin from nothing: what its friction carries on turns about the joint.
+    bool drives_before_points() const { return drive_.acts() && !keeps_push() && !is_distance(); }
+    void push_drive_with_points(Body& body_a, Body& body_b) {
+        BodyMove<Scalar> move_a{{}, body_a.world_inverse * drive_.pushed() * Scalar(-1)};
+        BodyMove<Scalar> move_b{{}, body_b.world_inverse * drive_.pushed()};
+        const Vec apart = offset(body_a, body_b) + cross(move_b.angle, body_b.rotation * point_b_) -
+                          cross(move_a.angle, body_a.rotation * point_a_);
+        push = points_.next_push(apart, apart - begin_, {});
+        move_a.shift = push * -body_a.inverse_mass;
+        move_a.angle = move_a.angle - body_a.world_inverse * cross(block_lever_a_, push);
+        move_b.shift = push * body_b.inverse_mass;
+        move_b.angle = move_b.angle + body_b.world_inverse * cross(block_lever_b_, push);
+        move_a.apply_to(body_a);
+        move_b.apply_to(body_b);
     }
 
     static Scalar size_of(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }

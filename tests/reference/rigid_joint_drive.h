@@ -18,9 +18,10 @@ public:
 
     // rate: substeps a second.
     JointDrive(const RigidJoint& joint, Scalar rate)
-        : hinge_(joint.kind == LKS_JOINT_HINGE), frame_a_(quaternion_of<Scalar>(joint.frame_a)),
-          frame_b_(quaternion_of<Scalar>(joint.frame_b)), rate_(rate),
-          friction_(static_cast<Scalar>(joint.friction)),
+        : hinge_(joint.kind == LKS_JOINT_HINGE),
+          axis_only_(joint.kind == LKS_JOINT_HINGE && joint.angular_compliance > 0),
+          frame_a_(quaternion_of<Scalar>(joint.frame_a)), frame_b_(quaternion_of<Scalar>(joint.frame_b)),
+          rate_(rate), friction_(static_cast<Scalar>(joint.friction)),
           drag_softness_(joint.angular_damping > 0 ? rate / static_cast<Scalar>(joint.angular_damping) : 0) {
         set_motor(joint.motor);
     }
@@ -33,14 +34,15 @@ public:
     }
 
     bool is_motor() const { return motor_; }
+    bool acts() const { return most_ > 0; }
 
     // Before the prediction: what the motor is to turn in the substep.
     void begin(const Body& a, const Body& b) { aim_ = motor_ ? missing_turn(a, b) * motor_share_ : Vec{}; }
 
     // Drags begin each substep anew, and motors with less than they pushed: swings would feed on it.
-    void prepare() {
+    void prepare(const Body& a) {
         drag_ = {};
-        grip_ = grip_ * (motor_ ? 1 - 2 * motor_share_ : Scalar(1));
+        grip_ = driven_part(a, grip_) * (motor_ ? 1 - 2 * motor_share_ : Scalar(1));
     }
     const Vec& pushed() const { return grip_; }
     // What is added.
@@ -88,9 +90,15 @@ private:
         return axis * (angle / (axis.dot(a.world_inverse * axis + b.world_inverse * axis) + softness));
     }
 
+    // A soft hinge's friction, or motor, bears nothing across its axis.
+    Vec driven_part(const Body& a, const Vec& turn) const {
+        const Vec axis = a.rotation * frame_a_.matrix().column(1);
+        return axis_only_ ? axis * axis.dot(turn) : turn;
+    }
+
     // By what the aim is missed by.
     void drive(Body& a, Body& b) {
-        const Vec missed = turned_since_start(a, b) - aim_;
+        const Vec missed = driven_part(a, turned_since_start(a, b) - aim_);
         const Scalar size = missed.length();
         if (size == 0) {
             return;
@@ -114,6 +122,7 @@ private:
     }
 
     bool hinge_;
+    bool axis_only_; // a soft hinge
     Quat frame_a_, frame_b_;
     Scalar rate_;
     Scalar friction_;

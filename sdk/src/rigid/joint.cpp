@@ -31,6 +31,41 @@ bool needs_block(const Joint& joint) {
            (!joint.in_tree || joint.description.motor_torque != 0);
 }
 
+// Friction, or a motor, begins with what held the load in the substep before, which turns the bodies about
+// their centres; what holds the points of a soft joint begins from nothing. Until it has pushed, that turn
+// looks like one to be stopped, and the joint would let go in each substep of what it holds.
+bool drives_before_points(const Joint& joint) {
+    return joint.constants.grip != 0 && !keeps_push(joint) && joint.description.kind != LKS_JOINT_DISTANCE;
+}
+
+// How far such a turn moves a point, to first order.
+Vec3 moved_by(const Move& turn, const Vec3& lever) {
+    const Vec3& h = turn.half_turn;
+    const auto part = [](std::int64_t x, std::int64_t v, std::int64_t y, std::int64_t u) {
+        constexpr int down = half_turn_fraction_bits - 1;
+        return fixed::multiply_shift(x, v, down) - fixed::multiply_shift(y, u, down);
+    };
+    return {part(h.y, lever.z, h.z, lever.y), part(h.z, lever.x, h.x, lever.z),
+            part(h.x, lever.y, h.y, lever.x)};
+}
+
+// What friction or the motor carries on, and with it what it takes to hold the points: together they turn the
+// bodies about the joint, where one after the other would turn them to and fro by more than is of first
+// order.
+void carry_drive_with_points(Joint& joint, Body& a, Body& b) {
+    const JointConstants& c = joint.constants;
+    Move move_a = turning_move_of(a, c.shares.a, c.reach, joint.grip, -1);
+    Move move_b = turning_move_of(b, c.shares.b, c.reach, joint.grip, 1);
+    const Vec3 turned = moved_by(move_b, fixed::rotate(b.rotation, joint.description.point_b)) -
+                        moved_by(move_a, fixed::rotate(a.rotation, joint.description.point_a));
+    const Vec3 offset = joint_offset(joint, a, b) + turned;
+    joint.push = next_push(joint.inverse, c.points, offset, offset - joint.begin, {0, 0, 0});
+    add_move(move_of(a, joint.side_a, joint.push, -1), move_a);
+    add_move(move_of(b, joint.side_b, joint.push, 1), move_b);
+    apply(a, move_a);
+    apply(b, move_b);
+}
+
 // The points together, in all directions at once (XPBD eq. 18).
 void project_points(Joint& joint, Body& a, Body& b) {
     const Vec3 offset = joint_offset(joint, a, b);
@@ -118,7 +153,7 @@ void prepare_pushes(Joint& joint, const Body& a, const Body& b) {
     const JointDescription& d = joint.description;
     prepare_turn(joint, a, b);
     prepare_limits(joint);
-    prepare_drive(joint);
+    prepare_drive(joint, a);
     if (!keeps_push(joint)) {
         joint.push = {0, 0, 0};
     }
@@ -131,9 +166,13 @@ void prepare_pushes(Joint& joint, const Body& a, const Body& b) {
     }
 }
 
-void carry_pushes_on(const Joint& joint, Body& a, Body& b) {
+void carry_pushes_on(Joint& joint, Body& a, Body& b) {
     carry_turn_on(joint, a, b);
     carry_limits_on(joint, a, b);
+    if (drives_before_points(joint)) {
+        carry_drive_with_points(joint, a, b);
+        return;
+    }
     carry_drive_on(joint, a, b);
     if (joint.description.kind != LKS_JOINT_DISTANCE && !joint.in_tree) {
         push_apart(joint, a, b, joint.push);
@@ -187,6 +226,10 @@ bool undo_error(const Joint& joint, Body& a, Body& b) {
 }
 
 void project(Joint& joint, Body& a, Body& b) {
+    if (drives_before_points(joint)) {
+        project_turn(joint, a, b);
+        project_points(joint, a, b);
+    }
     // A motor's turn is about the joint, a row's about the centres of mass: with the points in between, some
     // rounds make one of the other. (With one round a spider's legs bent by 15°, with four by 5°.)
     constexpr int more_rounds = 3;

@@ -159,7 +159,7 @@ void begin_substep(Joint& joint, const Body& a, const Body& b);
 // Once they are: K, and what of the pushes of the substep before is carried on.
 void prepare_pushes(Joint& joint, const Body& a, const Body& b);
 // Pushes them.
-void carry_pushes_on(const Joint& joint, Body& a, Body& b);
+void carry_pushes_on(Joint& joint, Body& a, Body& b);
 // Adds a share of what is carried on, 30 fraction bits, -1 .. 1.
 void carry_more(Joint& joint, Body& a, Body& b, std::int32_t share);
 // The same of one in a held tree, which pushes nothing by itself: what turns b against a, and what is added

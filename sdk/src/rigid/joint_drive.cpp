@@ -28,10 +28,20 @@ Vec3 within_grip(const Joint& joint, const Vec3& turn) {
     return beyond ? fixed::scale(size.direction, joint.constants.grip) : turn;
 }
 
+// Across its axis a soft hinge bends in each substep anew, before what holds it there has pushed enough:
+// friction that took that for a turn to be stopped would bear the load across, too, and slip about the axis.
+Vec3 driven_part(const Joint& joint, const Body& a, const Vec3& turn) {
+    if (joint.description.kind != LKS_JOINT_HINGE || joint.constants.angular_softness == 0) {
+        return turn;
+    }
+    const Direction axis = fixed::rotate(a.rotation, joint.constants.axis_a);
+    return fixed::scale(axis, fixed::dot(axis, turn));
+}
+
 // Turns by what the aim is missed by, up to the greatest push.
 void drive(Joint& joint, Body& a, Body& b) {
     fixed::NormalisedVector way{};
-    if (!fixed::normalise(turned_since_start(a, b) - joint.aim, way)) {
+    if (!fixed::normalise(driven_part(joint, a, turned_since_start(a, b) - joint.aim), way)) {
         return;
     }
     const std::int64_t wanted = TurnRow(joint, a, b, way.direction).push_for(-to_angle(way.length));
@@ -82,12 +92,13 @@ void aim_motor(Joint& joint, const Body& a, const Body& b) {
     }
 }
 
-void prepare_drive(Joint& joint) {
+void prepare_drive(Joint& joint, const Body& a) {
     joint.drag = {0, 0, 0};
     if (joint.constants.grip == 0) {
         joint.grip = {0, 0, 0};
         return;
     }
+    joint.grip = driven_part(joint, a, joint.grip);
     if (joint.description.motor_torque != 0) {
         const std::int32_t kept = direction_one - 2 * joint.constants.motor_share;
         joint.grip = fixed::scaled(kept, joint.grip);

@@ -19,7 +19,7 @@ namespace lks {
 // Before the prediction: what the motor is to turn in this substep.
 void aim_motor(Joint& joint, const Body& a, const Body& b);
 // After it: what is carried on, and how that is pushed.
-void prepare_drive(Joint& joint);
+void prepare_drive(Joint& joint, const Body& a);
 void carry_drive_on(const Joint& joint, Body& a, Body& b);
 // Adds a share of it, which is to be pushed.
 fixed::Vec3 add_to_drive(Joint& joint, std::int32_t share);

@@ -239,8 +239,12 @@ void turn(Body& body, const RowSide& side, std::int64_t p, int sign) {
     }
 }
 
+Move turning_move_of(const Body& body, std::int32_t share, int reach, const Vec3& p, int sign) {
+    return {{0, 0, 0}, clamped_turn(half_turn_of(body, share, turning_shift(body, reach) - 1, p, sign))};
+}
+
 void turn(Body& body, std::int32_t share, int reach, const Vec3& p, int sign) {
-    turn_body(body, half_turn_of(body, share, turning_shift(body, reach) - 1, p, sign));
+    turn_body(body, turning_move_of(body, share, reach, p, sign).half_turn);
 }
 
 Move move_of(const Body& body, const BlockSide& side, const Vec3& p, int sign) {

@@ -113,6 +113,7 @@ void add_turning_block(const Body& body, std::int32_t share, int reach, std::int
 Move move_of(const Body& body, const BlockSide& side, const fixed::Vec3& p, int sign);
 void push(Body& body, const BlockSide& side, const fixed::Vec3& p, int sign);
 // By a turning push (World) with the reach of turn_side.
+Move turning_move_of(const Body& body, std::int32_t share, int reach, const fixed::Vec3& p, int sign);
 void turn(Body& body, std::int32_t share, int reach, const fixed::Vec3& p, int sign);
 
 // By a push p (World) along the row's normal, p_normal; `sign` is 1 or -1. Turns stay within a quarter an
