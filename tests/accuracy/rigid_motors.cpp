@@ -26,7 +26,7 @@ void add_pair(RigidScene& scene, double friction) {
 
 } // namespace
 
-TEST_CASE("an arm that a motor lifts is within 1e-5 m on a ball joint and 8e-5 m on a hinge") {
+TEST_CASE("an arm that a motor lifts is within 2e-5 m on a ball joint and 8e-5 m on a hinge") {
     // 196 N·m pull it down; 400 lift it, 120 do not. A motor's row turns about the missed axis with one
     // weight: what is missed across it, be it a rounding, grows twentyfold in a round where inertias are as 1
     // : 21.
@@ -37,7 +37,7 @@ TEST_CASE("an arm that a motor lifts is within 1e-5 m on a ball joint and 8e-5 m
                 add_arm(scene, with_friction(kind, 0), 30);
                 scene.drive(0, motor(torque, 0.1, about(0, 1, 0, 50)));
                 const bool hinge = kind == LKS_JOINT_HINGE;
-                const RigidBounds bounds = hinge ? RigidBounds{8e-5, 1.6e-4, 2} : RigidBounds{1e-5, 2e-5, 40};
+                const RigidBounds bounds = hinge ? RigidBounds{8e-5, 1.6e-4, 2} : RigidBounds{2e-5, 4e-5, 20};
                 const std::string name = hinge ? "motor on a hinge" : "motor on a ball joint";
                 check_run((torque == 400 ? "strong " : "weak ") + name + substeps_name(substeps), scene,
                           bounds, bounds);

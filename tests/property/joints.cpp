@@ -313,3 +313,28 @@ TEST_CASE("a top that is held at one end of its axis precesses as its spin says"
     CHECK(lowest > -0.06);
     CHECK(highest < 0.01);
 }
+
+TEST_CASE("what lies on a limit far from its joint comes to rest there, and loads it by its weight") {
+    for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+        World world(world_def(60, substeps));
+        const lks_body_id anchor = add_anchor(world, {});
+        lks_body_def def = lks_default_body_def();
+        def.filter.mask = 0;
+        const lks_body_id body = add_body(world, box_shape(0.1, 0.1, 0.1), fixed(1, 0, 0), def);
+        lks_joint_def joint = lks_default_joint_def();
+        joint.kind = LKS_JOINT_HINGE;
+        joint.frame_a.rotation = joint.frame_b.rotation = about(1, 0, 0, 90);
+        joint.frame_b.position = fixed(-1, 0, 0);
+        joint.twist_min = fixed(-30);
+        joint.twist_max = fixed(30);
+        const lks_joint_id hinge = add_joint(world, joint, anchor, body);
+        const double expected = mass_of(world, body) * 9.81 * std::sqrt(0.75);
+        world.step(900);
+        lks_vec3 torque{};
+        REQUIRE(lks_joint_load(world, hinge, nullptr, &torque) == LKS_OK);
+        const double found = metres(torque).length();
+        INFO(substeps << " substeps: " << found << " of " << expected << " N·m");
+        CHECK(std::abs(found / expected - 1) < 0.02);
+        CHECK(lks_body_is_awake(world, body) == 0);
+    }
+}

@@ -78,6 +78,7 @@ struct JointConstants {
     SwingArm arm_b;
     fixed::Direction axis_a; // of the frames, in the bodies' axes
     fixed::Direction axis_b;
+    bool loads_from_far; // a body hangs so far out that a row about its centre hardly turns it
     bool swing_limited;
     bool twist_limited;
     bool swing_round;          // a cone
@@ -136,6 +137,8 @@ struct Joint : JointState {
     std::int64_t swing_start;    // how far limits let turn in this substep: World, radians
     std::int64_t twist_least;
     std::int64_t twist_most;
+    std::int64_t swing_gap; // how far limits that push are to keep off: World, radians
+    std::int64_t twist_gap;
     fixed::Vec3 aim; // what the motor is to turn: half turns, Turn
     BlockSide side_a;
     BlockSide side_b;

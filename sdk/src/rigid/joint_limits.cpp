@@ -40,6 +40,15 @@ struct Swing {
     std::int64_t limit;
 };
 
+// How far a limit that pushes keeps off what is back within it by `gap`, where loads are far from the joint:
+// of that it gives way to a 64th a substep. If it gave way to all at once, as it does for all others, it
+// would push until the gap is closed, as hard as before. What hangs far from the joint a row turns by a small
+// share only of what it means to, since the points hold the rest back: then the push falls by so little in
+// each substep that the load has long left the limit when it ends, and falls back from higher up each time.
+std::int64_t kept_gap(const Joint& joint, std::int64_t gap) {
+    return joint.constants.loads_from_far && gap > 0 ? gap - gap / 64 : 0;
+}
+
 Swing measure_swing(const Joint& joint, const Body& a, const Direction& u, const Direction& v) {
     fixed::NormalisedVector way{};
     if (!fixed::normalise(sines(u, v), way)) {
@@ -93,7 +102,7 @@ void hold_swing(Joint& joint, Body& a, Body& b) {
     }
     joint.swing_axis = swing.axis;
     const TurnRow row(joint, a, b, swing.axis, joint.constants.limits.softness);
-    const std::int64_t start = std::max<std::int64_t>(joint.swing_start - swing.limit, 0);
+    const std::int64_t start = std::max<std::int64_t>(joint.swing_start - swing.limit, -joint.swing_gap);
     const std::int64_t beyond = to_turn_back(joint, swing.angle - swing.limit, start, joint.swing_push);
     const std::int64_t wanted =
         std::clamp<std::int64_t>(joint.swing_push + row.push_for(beyond), 0, greatest_push);
@@ -190,17 +199,18 @@ void hold_twist(Joint& joint, Body& a, Body& b) {
     const auto push_for = [&](std::int64_t back) {
         return row.push_for(are_soft(joint) ? back : twist.turn_for(back));
     };
+    const auto kept = [&](std::int64_t start) { return start > 0 ? start : -joint.twist_gap; };
     const std::int64_t before = joint.twist_push;
     const std::int64_t most = are_soft(joint) ? c.twist_max : joint.twist_most;
     const std::int64_t least = are_soft(joint) ? c.twist_min : joint.twist_least;
     // Beyond its greatest it may only be turned down, below its least only up.
     if (twist.angle > most || before < 0) {
         const std::int64_t back =
-            to_turn_back(joint, twist.angle - c.twist_max, joint.twist_most - c.twist_max, -before);
+            to_turn_back(joint, twist.angle - c.twist_max, kept(joint.twist_most - c.twist_max), -before);
         joint.twist_push = std::clamp<std::int64_t>(before + push_for(-back), -greatest_push, 0);
     } else if (twist.angle < least || before > 0) {
         const std::int64_t back =
-            to_turn_back(joint, c.twist_min - twist.angle, c.twist_min - joint.twist_least, before);
+            to_turn_back(joint, c.twist_min - twist.angle, kept(c.twist_min - joint.twist_least), before);
         joint.twist_push = std::clamp<std::int64_t>(before + push_for(back), 0, greatest_push);
     }
     row.apply(joint.twist_push - before);
@@ -223,9 +233,13 @@ void begin_limits(Joint& joint, const Body& a, const Body& b) {
     const JointConstants& c = joint.constants;
     Swing swing{};
     joint.swing_start = 0;
+    joint.swing_gap = joint.twist_gap = 0;
     if (c.swing_limited && find_swing(joint, a, b, swing)) {
         joint.swing_start = swing.angle;
         joint.swing_axis = swing.axis;
+        if (joint.swing_push != 0) {
+            joint.swing_gap = kept_gap(joint, swing.limit - swing.angle);
+        }
     }
     joint.twist_least = c.twist_min;
     joint.twist_most = c.twist_max;
@@ -233,6 +247,10 @@ void begin_limits(Joint& joint, const Body& a, const Body& b) {
     if (c.twist_limited && find_twist(joint, a, b, twist)) {
         joint.twist_least = std::min(c.twist_min, twist.angle);
         joint.twist_most = std::max(c.twist_max, twist.angle);
+        if (joint.twist_push != 0) {
+            joint.twist_gap =
+                kept_gap(joint, joint.twist_push < 0 ? c.twist_max - twist.angle : twist.angle - c.twist_min);
+        }
     }
 }
 
