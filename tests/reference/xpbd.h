@@ -302,7 +302,7 @@ private:
     }
 
     void solve_chain() {
-        for (int solves = 1; solve_chain_once() && solves < 8; ++solves) {}
+        for (int solves = 1; solve_chain_once() && solves < 32; ++solves) {}
     }
 
     // Particles stand in the order of the rope, as vertices do. True: it is to be solved again.

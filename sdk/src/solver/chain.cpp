@@ -27,7 +27,10 @@ constexpr std::uint64_t rest_one = std::uint64_t{1} << rest_bits;
 constexpr std::uint64_t greatest_rest = std::uint64_t{1} << 62;
 // How much longer than the distance of its pins a piece of rope is taken to be at least.
 constexpr std::uint64_t least_slack = rest_one >> 24;
-constexpr int most_solves = 8;
+constexpr int most_solves = 32;
+// substep_motion_limit.
+constexpr int movement_bits = 60;
+static_assert(substep_motion_limit == std::int64_t{1} << movement_bits);
 
 // Of right sides, which are summed up without a look at each within a block.
 constexpr std::int64_t side_limit = std::int64_t{1} << 61;
@@ -70,14 +73,21 @@ public:
         }
         substitute();
         if (!stiffen(again)) {
-            push_particles();
+            push_particles(0);
             move_particles();
             return true;
         }
-        push_particles();
+        push_particles(0);
+        units_ = passes_limit() ? units_within_limit() : 0;
+        if (units_ != 0) {
+            push_particles(units_);
+        }
         gather();
         spread();
         cross();
+        if (units_ != 0) {
+            leave_units();
+        }
         move_particles();
         return true;
     }
@@ -381,10 +391,10 @@ private:
         return any;
     }
 
-    // How the particles move by the multipliers.
-    void push_particles() const {
+    // How the particles move by the multipliers, in units of 2^units coordinate units; by the limit at most.
+    void push_particles(int units) const {
         ChainMoves task;
-        task.exponent = chain_.multiplier_exponent;
+        task.exponent = chain_.multiplier_exponent - units;
         for (auto& pushes : task.pushes) {
             pushes[0] = 0;
         }
@@ -401,6 +411,45 @@ private:
                 pushes[0] = pushes[count];
             }
         });
+    }
+
+    // Whether a movement was limited, on which the second pass must not build: the pushes of neighbours would
+    // no longer cancel, and a light particle's loss be as great a push on the heavy one behind it. Seldom,
+    // and never where all multipliers are short.
+    bool passes_limit() const {
+        if (units_within_limit() == 0) {
+            return false;
+        }
+        for (const std::int64_t* const movements : work_.movements) {
+            for (std::uint32_t i = 0; i <= count_; ++i) {
+                if (!within(movements[i], substep_motion_limit - 1)) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    // In which no movement reaches the limit: with at most half of R, a particle moves by no more than the
+    // longer one of two multipliers. They are no less than half a multiplier's.
+    int units_within_limit() const {
+        std::uint64_t bits = 0;
+        for (std::uint32_t j = 0; j < count_; ++j) {
+            bits |= static_cast<std::uint64_t>(work_.multipliers[j] ^ (work_.multipliers[j] >> 63));
+        }
+        const int multiplier_bits = 64 - std::countl_zero(bits);
+        return std::clamp(multiplier_bits + chain_.multiplier_exponent - movement_bits, 0,
+                          chain_.multiplier_exponent - 1);
+    }
+
+    // What the pass leaves of movements, in coordinate units, and by the limit at most.
+    void leave_units() const {
+        const std::int64_t limit = substep_motion_limit >> units_;
+        for (std::int64_t* const movements : work_.movements) {
+            for (std::uint32_t i = 0; i <= count_; ++i) {
+                movements[i] = bounded(movements[i], limit) * (std::int64_t{1} << units_);
+            }
+        }
     }
 
     // The mean of what a particle and all behind it would do, from the far end to the near one.
@@ -489,7 +538,7 @@ private:
     void cross() {
         ChainAcross task;
         task.count = count_ + 1;
-        task.rest_lengths = chain_.rest_lengths.data();
+        task.rest_lengths = units_ == 0 ? chain_.rest_lengths.data() : rest_lengths_in_units();
         for (int axis = 0; axis < 3; ++axis) {
             std::int64_t* const directions = work_.directions[axis];
             *(directions - 1) = directions[0]; // ends have that of their one segment
@@ -507,6 +556,15 @@ private:
                 take_mean_off(work_.movements[axis], work_.gathered[axis]);
             }
         }
+    }
+
+    // Where the multipliers' factors were, which nothing reads any more.
+    const std::int64_t* rest_lengths_in_units() const {
+        std::int64_t* const lengths = work_.carried;
+        for (std::uint32_t i = 0; i < count_ + chain_padding; ++i) {
+            lengths[i] = chain_.rest_lengths[i] >> units_;
+        }
+        return lengths;
     }
 
     void take_mean_off(std::int64_t* movements, const std::int64_t* changes) const {
@@ -543,6 +601,7 @@ private:
     bool torn_;
     bool eased_; // multipliers so far count
     bool off_ = false;
+    int units_ = 0; // of movements in the second pass: 2^units_ coordinate units
     std::uint64_t softness_;
     std::uint64_t taut_ = rest_one; // what rest lengths are multiplied by in the piece at hand
 };
@@ -555,7 +614,11 @@ bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& famil
     if (!solve.run(false)) {
         return false;
     }
-    for (int solved = 1; solved < most_solves && solve.is_off() && solve.run(true); ++solved) {}
+    for (int solved = 1; solved < most_solves && solve.is_off(); ++solved) {
+        if (!solve.run(true)) {
+            return false;
+        }
+    }
     return true;
 }
 
