@@ -7,6 +7,7 @@
 #include "rigid/articulation_walk.h"
 #include "rigid/body_motion.h"
 #include "rigid/held_tree.h"
+#include "rigid/uneven_tree.h"
 
 namespace lks {
 namespace {
@@ -17,37 +18,10 @@ using fixed::Vec3;
 
 constexpr std::int64_t one = std::int64_t{1} << tree_fraction_bits;
 
-// (hω)² of a body's swing: a ten-thousandth of its inverse inertia is left, which has 30 bits.
+// (hω)² of a body's swing: a ten-thousandth of its inverse inertia is left, which has 30 bits. In uneven
+// trees these are moved along.
 constexpr std::int64_t greatest_load = std::int64_t{1} << (world_fraction_bits + 14);
-
-// What a push along each axis at the lever does: its shift and its turn.
-void push_columns(const ArticulatedInverse& w, const Vec3& lever, Vec3 (&shift)[3], Vec3 (&turn)[3]) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const Vec3 arm = axis == 0   ? Vec3{0, lever.z, -lever.y}
-                         : axis == 1 ? Vec3{-lever.z, 0, lever.x}
-                                     : Vec3{lever.y, -lever.x, 0};
-        const int(&row)[3] = rows_of_symmetric[axis];
-        shift[axis] = Vec3{w.shift[row[0]], w.shift[row[1]], w.shift[row[2]]} +
-                      Vec3{dot_32({w.mixed[0], w.mixed[1], w.mixed[2]}, arm),
-                           dot_32({w.mixed[3], w.mixed[4], w.mixed[5]}, arm),
-                           dot_32({w.mixed[6], w.mixed[7], w.mixed[8]}, arm)};
-        turn[axis] =
-            Vec3{w.mixed[3 * axis], w.mixed[3 * axis + 1], w.mixed[3 * axis + 2]} + symmetric(w.turn, arm);
-    }
-}
-
-// How the point moves: xx, xy, xz, yy, yz, zz are added to.
-void add_point_motion(const Vec3& lever, const Vec3 (&shift)[3], const Vec3 (&turn)[3],
-                      std::int64_t (&d)[6]) {
-    int entry = 0;
-    for (int i = 0; i < 3; ++i) {
-        const Vec3 moved = shift[i] + cross_32(turn[i], lever);
-        for (int j = i; j < 3; ++j) {
-            d[entry] = plus(d[entry], component(moved, j));
-            ++entry;
-        }
-    }
-}
+constexpr std::int64_t greatest_uneven_load = INT64_MAX;
 
 // D⁻¹ by D = L·diag·Lᵀ.
 SymmetricInverse invert(const std::int64_t (&d)[6]) {
@@ -118,9 +92,11 @@ void factor_joint(RigidScene& scene, ArticulatedJoint& part) {
 
 // A light link under a great tension swings faster than a substep: beyond what a substep can follow it turns
 // as if it were heavier (the diagonal of an implicit geometric stiffness; Andrews, Teichmann, Kry 2017). What
-// the body already turns as heavily for is `before`.
-void stiffen(Body& body, std::int64_t load, std::int64_t before) {
+// the body already turns as heavily for is its load. `may_lower`: the exponent of its inverse inertia.
+void stiffen(Body& body, ArticulatedBody& part, bool may_lower) {
     constexpr std::int64_t followed = std::int64_t{2} << world_fraction_bits;
+    const std::int64_t load = part.found_load;
+    const std::int64_t before = part.load;
     if (load <= std::max(before, followed)) {
         return;
     }
@@ -129,13 +105,21 @@ void stiffen(Body& body, std::int64_t load, std::int64_t before) {
         const std::int64_t excess = std::max<std::int64_t>(pull - followed, 0);
         return (std::int64_t{1} << 32) + (excess >> (world_fraction_bits - 32));
     };
-    const auto left = static_cast<std::int32_t>(
-        fixed::multiply_divide(heaviness(before), std::int64_t{1} << 30, heaviness(load)));
-    const auto part = [left](std::int32_t c) {
+    const std::int64_t lighter = heaviness(before);
+    const std::int64_t heavier = heaviness(load);
+    int more = 0;
+    while (may_lower && lighter <= heavier >> (more + 1)) {
+        ++more;
+    }
+    const auto left =
+        static_cast<std::int32_t>(fixed::multiply_divide(lighter, std::int64_t{1} << (30 + more), heavier));
+    const auto entry = [left](std::int32_t c) {
         return static_cast<std::int32_t>(fixed::scale_component(left, c));
     };
     const SymmetricMatrix& m = body.world_inverse;
-    body.world_inverse = {part(m.xx), part(m.xy), part(m.xz), part(m.yy), part(m.yz), part(m.zz)};
+    body.world_inverse = {entry(m.xx), entry(m.xy), entry(m.xz), entry(m.yy), entry(m.yz), entry(m.zz)};
+    body.inverse_shift -= more;
+    part.lowered += more;
 }
 
 // The bodies and joints of one tree.
@@ -146,6 +130,7 @@ public:
     void stiffen_bodies() {
         for_each_body([](Body&, ArticulatedBody& part) {
             part.load = 0;
+            part.lowered = 0;
             part.carried_torque = {0, 0, 0};
         });
         stiffen_by_tensions();
@@ -161,6 +146,10 @@ public:
     }
 
     void factor() {
+        if (range_.is_uneven) {
+            factor_uneven(scene_, range_);
+            return;
+        }
         for_each_body(
             [](Body& body, ArticulatedBody& part) { part.inverse = own_inverse(body, part.share); });
         for_each_joint_back([this](ArticulatedJoint& part, const Joint&) {
@@ -179,12 +168,16 @@ public:
         for_each_body([this](const Body& body, ArticulatedBody& part) {
             part.shift = part.turn = part.force = part.torque = {0, 0, 0};
             if (range_.is_held) {
-                part.turn = own_turn(body, part, part.carried_torque);
+                part.turn = turn_by_itself(body, part);
             }
         });
-        for_each_joint_back([&](ArticulatedJoint& part, const Joint&) { fold_error(part, error); });
+        for_each_joint_back([&](ArticulatedJoint& part, const Joint& joint) {
+            Vec3 apart = error(joint, body_a(joint), body_b(joint));
+            clamp_vector(apart, greatest_step);
+            fold_error(part, part.child_is_a ? -apart : apart);
+        });
         for_each_joint([&](ArticulatedJoint& part, Joint& joint) {
-            const Vec3 push = push_of(part);
+            const Vec3 push = range_.is_uneven ? push_uneven(scene_, part) : push_of(part);
             use(joint, multiply_32(part.pair_share, part.child_is_a ? -push : push));
         });
         for_each_body([this](Body& body, ArticulatedBody& part) {
@@ -192,7 +185,7 @@ public:
                 part.torque = part.torque + part.carried_torque;
                 part.carried_torque = {0, 0, 0};
             }
-            apply(body, move_of(body, part));
+            apply(body, range_.is_uneven ? move_uneven(body, part) : move_of(body, part.share, part));
         });
     }
 
@@ -219,6 +212,20 @@ public:
               [](const Joint&, const Vec3&) {});
     }
 
+    // Back to what the bodies' descriptions have.
+    void raise_exponents() {
+        for_each_body([](Body& body, ArticulatedBody& part) {
+            const auto entry = [&part](std::int32_t c) { return c >> std::min(part.lowered, 31); };
+            if (part.lowered != 0) {
+                const SymmetricMatrix& m = body.world_inverse;
+                body.world_inverse = {entry(m.xx), entry(m.xy), entry(m.xz),
+                                      entry(m.yy), entry(m.yz), entry(m.zz)};
+                body.inverse_shift += part.lowered;
+                part.lowered = 0;
+            }
+        });
+    }
+
     void finish_undoing(bool far_off, int round) {
         for (; round < most_undoing_rounds && far_off; ++round) {
             far_off = undo_errors();
@@ -236,8 +243,8 @@ private:
                 add_load(part.child, joint, part.child_is_a);
             }
         });
-        for_each_body([](Body& body, ArticulatedBody& part) {
-            stiffen(body, part.found_load, part.load);
+        for_each_body([this](Body& body, ArticulatedBody& part) {
+            stiffen(body, part, range_.is_uneven);
             part.load = std::max(part.load, part.found_load);
         });
     }
@@ -246,25 +253,36 @@ private:
     // |r|²·tr Ĵ − rᵀĴr, World.
     void add_load(std::uint32_t index, const Joint& joint, bool on_a) {
         const Body& body = scene_.bodies[index];
+        ArticulatedBody& part = scene_.articulated[index];
         const JointConstants& c = joint.constants;
         const SwingArm& arm = on_a ? c.arm_a : c.arm_b;
         const std::int32_t share = on_a ? c.shares.a : c.shares.b;
+        const std::int64_t most = range_.is_uneven
+                                      ? std::min(greatest_uneven_push, INT64_MAX >> std::max(-body.scale, 0))
+                                      : greatest_push;
         const std::int64_t pull =
-            in_units(body, std::min(fixed::scale_component(share, joint.tension), greatest_push));
+            in_units(body, std::min(fixed::scale_component(share, joint.tension), most));
         const std::int64_t load =
             fixed::multiply_shift(fixed::multiply_shift(pull, arm.length, world_fraction_bits), arm.across,
-                                  30 - body.inverse_shift);
-        std::int64_t& sum = scene_.articulated[index].found_load;
-        sum = std::min(fixed::saturating_add(sum, load), greatest_load);
+                                  30 - body.inverse_shift - part.lowered);
+        part.found_load = std::min(fixed::saturating_add(part.found_load, load),
+                                   range_.is_uneven ? greatest_uneven_load : greatest_load);
     }
 
-    template <typename Error>
-    void fold_error(ArticulatedJoint& part, const Error& error) {
-        const Joint& joint = scene_.joints[part.joint];
-        Vec3 apart = error(joint, body_a(joint), body_b(joint));
-        clamp_vector(apart, greatest_step);
+    // By the torque that it begins with.
+    Vec3 turn_by_itself(const Body& body, const ArticulatedBody& part) const {
+        return range_.is_uneven ? own_turn<uneven_fraction_bits>(body, part.fine_share, part.carried_torque)
+                                : own_turn(body, part.share, part.carried_torque);
+    }
+
+    // `apart`: how far the child's point is from the parent's.
+    void fold_error(ArticulatedJoint& part, const Vec3& apart) {
+        if (range_.is_uneven) {
+            fold_uneven(scene_, part, apart);
+            return;
+        }
         ArticulatedBody& parent = scene_.articulated[part.parent];
-        Vec3 left = (part.child_is_a ? -apart : apart) - point_motion(parent, part.parent_lever);
+        Vec3 left = apart - point_motion(parent, part.parent_lever);
         if (part.child_moves) {
             left = left + point_motion(scene_.articulated[part.child], part.child_lever);
         }
@@ -320,9 +338,9 @@ void invert_points(const TreeLanes (&motion)[6], std::uint32_t first, std::uint3
     }
 }
 
-void add_tree_push(Joint& joint, const Vec3& push) {
+void add_tree_push(Joint& joint, const Vec3& push, bool is_uneven) {
     joint.push = joint.push + push;
-    clamp_vector(joint.push, greatest_push);
+    clamp_vector(joint.push, is_uneven ? greatest_uneven_push : greatest_push);
 }
 
 void solve_articulation(RigidScene& scene, const ArticulatedTree& tree) {
@@ -330,7 +348,7 @@ void solve_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     all.follow_uneven();
     all.solve([](const Joint& joint, const Body& a,
                  const Body& b) { return joint_offset(joint, a, b) - joint.start; },
-              add_tree_push);
+              [&tree](Joint& joint, const Vec3& push) { add_tree_push(joint, push, tree.is_uneven); });
 }
 
 void stiffen_further(RigidScene& scene, const ArticulatedTree& tree) {
@@ -350,11 +368,14 @@ void undo_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     if (tree.is_held && undo_held_tree(scene, tree)) {
         all.bring_together();
         all.make_units();
-        return;
+    } else {
+        const bool far_off = all.undo_errors();
+        all.bring_together();
+        all.finish_undoing(far_off, 1);
     }
-    const bool far_off = all.undo_errors();
-    all.bring_together();
-    all.finish_undoing(far_off, 1);
+    if (tree.is_uneven) {
+        all.raise_exponents();
+    }
 }
 
 } // namespace lks

@@ -13,7 +13,8 @@
 // distances are left to the sweeps.
 //
 // Numbers: inverse masses are shares of the greatest one in the tree, levers and turns in each body's own
-// unit of length (rigid/inertia.h), 32 fraction bits; pushes and errors are lengths in World.
+// unit of length (rigid/inertia.h), 32 fraction bits; pushes and errors are lengths in World. Where masses
+// are uneven they have more (rigid/uneven_tree.h).
 #pragma once
 
 #include "rigid/rigid_scene.h"
@@ -36,7 +37,7 @@ void undo_articulation(RigidScene& scene, const ArticulatedTree& tree);
 // heavily as a substep can follow.
 void stiffen_articulation(RigidScene& scene, const ArticulatedTree& tree);
 // What the tree has pushed its joint:
-void add_tree_push(Joint& joint, const fixed::Vec3& push);
+void add_tree_push(Joint& joint, const fixed::Vec3& push, bool is_uneven);
 // D⁻¹ of lanes first .. first + count − 1.
 void invert_points(const TreeLanes (&motion)[6], std::uint32_t first, std::uint32_t count,
                    TreeLanes (&inverse)[6]);

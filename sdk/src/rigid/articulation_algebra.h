@@ -21,8 +21,9 @@ inline fixed::Vec3 multiply_32(std::int64_t a, const fixed::Vec3& v) {
 }
 
 // To the nearest, so that bodies keep their momentum.
-inline fixed::Vec3 rounded_share(std::int64_t share, const fixed::Vec3& v) {
-    const auto part = [share](std::int64_t c) { return fixed::multiply_shift(share, c, tree_fraction_bits); };
+template <int fraction_bits = tree_fraction_bits>
+fixed::Vec3 rounded_share(std::int64_t share, const fixed::Vec3& v) {
+    const auto part = [share](std::int64_t c) { return fixed::multiply_shift(share, c, fraction_bits); };
     return {part(v.x), part(v.y), part(v.z)};
 }
 
@@ -91,6 +92,36 @@ inline fixed::Vec3 point_motion(const ArticulatedBody& body, const fixed::Vec3& 
     return body.shift + cross_32(body.turn, lever);
 }
 
+// What a push along each axis at the lever does: its shift and its turn.
+inline void push_columns(const ArticulatedInverse& w, const fixed::Vec3& lever, fixed::Vec3 (&shift)[3],
+                         fixed::Vec3 (&turn)[3]) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const fixed::Vec3 arm = axis == 0   ? fixed::Vec3{0, lever.z, -lever.y}
+                                : axis == 1 ? fixed::Vec3{-lever.z, 0, lever.x}
+                                            : fixed::Vec3{lever.y, -lever.x, 0};
+        const int(&row)[3] = rows_of_symmetric[axis];
+        shift[axis] = fixed::Vec3{w.shift[row[0]], w.shift[row[1]], w.shift[row[2]]} +
+                      fixed::Vec3{dot_32({w.mixed[0], w.mixed[1], w.mixed[2]}, arm),
+                                  dot_32({w.mixed[3], w.mixed[4], w.mixed[5]}, arm),
+                                  dot_32({w.mixed[6], w.mixed[7], w.mixed[8]}, arm)};
+        turn[axis] = fixed::Vec3{w.mixed[3 * axis], w.mixed[3 * axis + 1], w.mixed[3 * axis + 2]} +
+                     symmetric(w.turn, arm);
+    }
+}
+
+// How the point moves: xx, xy, xz, yy, yz, zz are added to.
+inline void add_point_motion(const fixed::Vec3& lever, const fixed::Vec3 (&shift)[3],
+                             const fixed::Vec3 (&turn)[3], std::int64_t (&d)[6]) {
+    int entry = 0;
+    for (int i = 0; i < 3; ++i) {
+        const fixed::Vec3 moved = shift[i] + cross_32(turn[i], lever);
+        for (int j = i; j < 3; ++j) {
+            d[entry] = plus(d[entry], component(moved, j));
+            ++entry;
+        }
+    }
+}
+
 inline void add_force(ArticulatedBody& body, const fixed::Vec3& lever, const fixed::Vec3& push) {
     body.force = body.force + push;
     body.torque = body.torque + cross_32(lever, push);
@@ -101,16 +132,19 @@ inline fixed::Vec3 shifted(const fixed::Vec3& v, int up) {
 }
 
 // How a torque turns the body by itself, in its unit.
-inline fixed::Vec3 own_turn(const Body& body, const ArticulatedBody& part, const fixed::Vec3& torque) {
-    return shifted(multiply(body.world_inverse, rounded_share(part.share, torque)), body.inverse_shift);
+template <int fraction_bits = tree_fraction_bits>
+fixed::Vec3 own_turn(const Body& body, std::int64_t share, const fixed::Vec3& torque) {
+    return shifted(multiply(body.world_inverse, rounded_share<fraction_bits>(share, torque)),
+                   body.inverse_shift);
 }
 
 // What the pushes of its joints do to it, all at once: one by one they may be large, and of the heavy end of
 // a chain only a small rest remains.
-inline Move move_of(const Body& body, const ArticulatedBody& part) {
-    const fixed::Vec3 turn = multiply(body.world_inverse, rounded_share(part.share, part.torque));
+template <int fraction_bits = tree_fraction_bits>
+Move move_of(const Body& body, std::int64_t share, const ArticulatedBody& part) {
+    const fixed::Vec3 turn = multiply(body.world_inverse, rounded_share<fraction_bits>(share, part.torque));
     const int up = body.inverse_shift - body.scale - 1 + half_turn_fraction_bits - world_fraction_bits;
-    return {rounded_share(part.share, part.force), shifted(turn, up)};
+    return {rounded_share<fraction_bits>(share, part.force), shifted(turn, up)};
 }
 
 } // namespace lks::tree_detail

@@ -19,10 +19,12 @@ struct ArticulatedInverse {
 };
 
 struct ArticulatedBody {
-    std::int64_t share; // of the tree's greatest inverse mass
+    std::int64_t share;      // of the tree's greatest inverse mass
+    std::int64_t fine_share; // the same with 40 fraction bits: of uneven trees
     bool attached;
     std::int64_t load; // (hω)² of its swing under what pulls at it, World: as heavily as that it turns
     std::int64_t found_load;
+    int lowered; // of uneven trees: what its inverse inertia's exponent is less by meanwhile
     ArticulatedInverse inverse;
     // What the joints beyond it have done to it, and what those towards the root push it.
     fixed::Vec3 shift;

@@ -4,6 +4,7 @@
 #include "memory/sort_numbers.h"
 #include "rigid/articulation.h"
 #include "rigid/body_roots.h"
+#include "rigid/uneven_tree.h"
 
 namespace lks {
 namespace {
@@ -17,8 +18,8 @@ constexpr std::int64_t farthest_lever = 8;
 // Of masses in a tree (ArticulatedTree::is_uneven). Those of ragdolls are far below it.
 constexpr std::int64_t uneven_ratio = 1000;
 
-// 32 fraction bits.
-std::int64_t share_of(const InverseMass& part, const InverseMass& whole) {
+// Of 32 fraction bits and more.
+std::int64_t share_of(const InverseMass& part, const InverseMass& whole, int more_bits = 0) {
     if (part.mantissa == 0) {
         return 0;
     }
@@ -27,7 +28,9 @@ std::int64_t share_of(const InverseMass& part, const InverseMass& whole) {
         return 0;
     }
     const std::uint64_t quotient = (std::uint64_t{part.mantissa} << 32) / whole.mantissa;
-    return static_cast<std::int64_t>(std::min<std::uint64_t>(quotient >> down, std::uint64_t{1} << 32));
+    const int shift = down - more_bits;
+    const std::uint64_t share = shift >= 0 ? quotient >> shift : quotient << -shift;
+    return static_cast<std::int64_t>(std::min(share, std::uint64_t{1} << (32 + more_bits)));
 }
 
 bool is_near(const Body& body, const Vec3& point) {
@@ -63,7 +66,9 @@ public:
                 walk(body);
             }
         }
-        static_cast<void>(scene_.held_joints.resize(any_held_ ? scene_.tree_joints.size() : 0)); // its room
+        const std::size_t count = scene_.tree_joints.size(); // within their room
+        static_cast<void>(scene_.held_joints.resize(any_held_ ? count : 0));
+        static_cast<void>(scene_.uneven_joints.resize(any_uneven_ ? count : 0));
     }
 
 private:
@@ -145,11 +150,25 @@ private:
             scene_.articulated[body].share = share;
             uneven = uneven || share * uneven_ratio <= std::int64_t{1} << 32;
         }
+        if (uneven) {
+            find_fine_shares(begin, lightest);
+        }
         const bool held = mark_held(begin_joints);
         scene_.trees.push_reserved({begin, static_cast<std::uint32_t>(scene_.tree_bodies.size()),
                                     begin_joints, static_cast<std::uint32_t>(scene_.tree_joints.size()), held,
                                     uneven});
         any_held_ = any_held_ || held;
+        any_uneven_ = any_uneven_ || uneven;
+    }
+
+    // Of the bodies of the tree that begins there.
+    void find_fine_shares(std::size_t body, std::uint32_t lightest) {
+        for (std::size_t i = body; i < scene_.tree_bodies.size(); ++i) {
+            const std::uint32_t index = scene_.tree_bodies[i];
+            scene_.articulated[index].fine_share =
+                share_of(scene_.bodies[index].inverse_mass, scene_.bodies[lightest].inverse_mass,
+                         uneven_fraction_bits - 32);
+        }
     }
 
     // The joints of the tree that begins there, where one of them is to what does not move.
@@ -197,6 +216,7 @@ private:
     RigidScene& scene_;
     BodyRoots roots_;
     bool any_held_ = false;
+    bool any_uneven_ = false;
 };
 
 } // namespace

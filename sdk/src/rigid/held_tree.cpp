@@ -155,10 +155,14 @@ public:
     }
 
 private:
+    std::int64_t greatest_point_push() const {
+        return range_.is_uneven ? greatest_uneven_push : greatest_push;
+    }
+
     bool turns_far() {
         bool far = false;
         for_each_body([&](const Body& body, const ArticulatedBody& part) {
-            const Vec3 turn = move_of(body, part).half_turn;
+            const Vec3 turn = move_of(body, part.share, part).half_turn;
             for (const std::int64_t c : {turn.x, turn.y, turn.z}) {
                 far = far || c > greatest_uneven_half_turn || c < -greatest_uneven_half_turn;
             }
@@ -238,7 +242,7 @@ private:
 
     // How a torque about an axis turns the body by itself, about that axis.
     std::int64_t own_turn_about(std::uint32_t body, const Vec3& axis) const {
-        return dot_32(axis, own_turn(scene_.bodies[body], scene_.articulated[body], axis));
+        return dot_32(axis, own_turn(scene_.bodies[body], scene_.articulated[body].share, axis));
     }
 
     // Adds how rows move by pushes in each of them; leaves the columns of the body that comes last.
@@ -305,7 +309,7 @@ private:
         for_each_body([](const Body& body, ArticulatedBody& part) {
             part.shift = {0, 0, 0};
             part.carried_torque = part.torque;
-            part.turn = own_turn(body, part, part.torque);
+            part.turn = own_turn(body, part.share, part.torque);
             part.torque = {0, 0, 0};
         });
         for_each_held_back([this](const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
@@ -317,7 +321,7 @@ private:
             part.torque = part.torque + part.carried_torque;
             part.carried_torque = {0, 0, 0};
             part.shift = rounded_share(part.share, part.force);
-            part.turn = own_turn(body, part, part.torque);
+            part.turn = own_turn(body, part.share, part.torque);
         });
     }
 
@@ -340,7 +344,7 @@ private:
         });
         lks::solve(held.system, left);
         for (int row = 0; row < held.system.count; ++row) {
-            held.push[row] = std::clamp(minus(0, left[row]), -greatest_push, greatest_push);
+            held.push[row] = std::clamp(minus(0, left[row]), -greatest_point_push(), greatest_point_push());
             parent.shift = parent.shift - multiply_32(held.push[row], held.column_shift[row]);
             parent.turn = parent.turn - multiply_32(held.push[row], held.column_turn[row]);
         }
@@ -356,7 +360,8 @@ private:
         }
         lks::solve(held.system, more);
         for (int row = 0; row < held.system.count; ++row) {
-            held.push[row] = std::clamp(plus(held.push[row], more[row]), -greatest_push, greatest_push);
+            held.push[row] =
+                std::clamp(plus(held.push[row], more[row]), -greatest_point_push(), greatest_point_push());
         }
         const Vec3 push = point_push(held);
         add_force(parent, part.parent_lever, -push);
@@ -407,17 +412,18 @@ private:
     }
 
     void push() {
-        for_each_body([](Body& body, const ArticulatedBody& part) { apply(body, move_of(body, part)); });
+        for_each_body(
+            [](Body& body, const ArticulatedBody& part) { apply(body, move_of(body, part.share, part)); });
         if (in_substep_) {
-            for_each_held([](const ArticulatedJoint& part, Joint& joint, const HeldJoint& held) {
+            for_each_held([this](const ArticulatedJoint& part, Joint& joint, const HeldJoint& held) {
                 keep_pushes(part, joint, held);
             });
         }
     }
 
-    static void keep_pushes(const ArticulatedJoint& part, Joint& joint, const HeldJoint& held) {
+    void keep_pushes(const ArticulatedJoint& part, Joint& joint, const HeldJoint& held) {
         const Vec3 push = point_push(held);
-        add_tree_push(joint, multiply_32(part.pair_share, part.child_is_a ? -push : push));
+        add_tree_push(joint, multiply_32(part.pair_share, part.child_is_a ? -push : push), range_.is_uneven);
         for (std::uint32_t i = 0; i < held.row_count; ++i) {
             if (!held.pushes[i]) {
                 set_limit_push(joint, held.rows[i], 0);

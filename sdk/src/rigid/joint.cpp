@@ -143,6 +143,8 @@ void begin_substep(Joint& joint, const Body& a, const Body& b) {
     if (joint.in_tree) {
         joint.tension = sum_of_magnitudes(joint.push);
         joint.push = {0, 0, 0};
+    } else {
+        clamp_vector(joint.push, greatest_push); // it may have been in an uneven tree
     }
     aim_motor(joint, a, b);
     begin_limits(joint, a, b);
@@ -204,7 +206,8 @@ Vec3 add_to_carried_turn(Joint& joint, const Body& a, const Body& b, std::int32_
 }
 
 void add_up_pushes(Joint& joint, const Body& a, const Body& b) {
-    joint.pushed = joint.pushed + joint.push;
+    joint.pushed = saturating_add(joint.pushed, joint.push);
+    clamp_vector(joint.pushed, greatest_pushed);
     joint.turned = joint.turned + joint.turn + limit_push(joint, a, b) + joint.grip + joint.drag;
 }
 

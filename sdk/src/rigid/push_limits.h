@@ -11,6 +11,12 @@ namespace lks {
 // carry ever more on.
 inline constexpr std::int64_t greatest_push = std::int64_t{1} << 50;
 
+// In trees of which a body has a thousand times the mass of another, and more (rigid/uneven_tree.h), 262 km:
+// what a heavy body pulls with counts as the length that it would move the lightest one by.
+inline constexpr std::int64_t greatest_uneven_push = std::int64_t{1} << 58;
+// Of all substeps of a tick.
+inline constexpr std::int64_t greatest_pushed = std::int64_t{1} << 62;
+
 // What a move or a turn in other units saturates at.
 inline constexpr std::int64_t greatest_shifted = std::int64_t{1} << 50;
 

@@ -14,13 +14,13 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       contact_points(allocator), contacts_act(allocator), contact_moves(allocator), next_memories(allocator),
       islands(allocator), tree_roots(allocator), tree_links(allocator), tree_bodies(allocator),
       tree_joints(allocator), articulated(allocator), trees(allocator), held_joints(allocator),
-      figures(allocator), figure_parts(allocator), figure_ranges(allocator), figure_bundles(allocator),
-      wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator), figure_shares(allocator),
-      substep_motions(allocator), predicted_speeds(allocator), figure_masses(allocator),
-      figures_changed(allocator), strained_figures(allocator), figure_shifts(allocator),
-      figure_pairs(allocator), island_rests(allocator), is_coupled(allocator), coupled(allocator),
-      object_pairs(allocator), object_impulses(allocator), held(allocator), loaded_bodies(allocator),
-      loaded_joints(allocator), tree_kernels_(tree_kernels) {}
+      uneven_joints(allocator), figures(allocator), figure_parts(allocator), figure_ranges(allocator),
+      figure_bundles(allocator), wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator),
+      figure_shares(allocator), substep_motions(allocator), predicted_speeds(allocator),
+      figure_masses(allocator), figures_changed(allocator), strained_figures(allocator),
+      figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator), is_coupled(allocator),
+      coupled(allocator), object_pairs(allocator), object_impulses(allocator), held(allocator),
+      loaded_bodies(allocator), loaded_joints(allocator), tree_kernels_(tree_kernels) {}
 
 // A bundle takes the same for any number of trees.
 std::size_t RigidScene::wide_room(std::size_t count) const {
@@ -65,7 +65,7 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
 bool RigidScene::reserve_joints(std::size_t count) {
     const bool done = joint_slots.reserve(count) && joints.reserve(count) && loaded_joints.reserve(count) &&
                       jointed.reserve(count) && tree_links.reserve(2 * count) && tree_joints.reserve(count) &&
-                      held_joints.reserve(count) && trees.reserve(count) &&
+                      held_joints.reserve(count) && uneven_joints.reserve(count) && trees.reserve(count) &&
                       wide_joints.reserve(wide_room(count)) &&
                       reserve_figures(body_room_, count, attachment_room_);
     joint_room_ = done ? std::max(joint_room_, count) : joint_room_;

@@ -16,6 +16,7 @@
 #include "rigid/joint.h"
 #include "rigid/overlaps.h"
 #include "rigid/substep_motion.h"
+#include "rigid/uneven_tree_parts.h"
 #include "solver/slot.h"
 
 namespace lks {
@@ -108,7 +109,8 @@ struct RigidScene {
     Array<ArticulatedJoint> tree_joints; // from the roots on
     Array<ArticulatedBody> articulated;  // by body
     Array<ArticulatedTree> trees;
-    Array<HeldJoint> held_joints; // by tree joint, where a tree is held (rigid/held_tree.h)
+    Array<HeldJoint> held_joints;     // by tree joint, where a tree is held (rigid/held_tree.h)
+    Array<UnevenJoint> uneven_joints; // the same where one's masses are uneven (rigid/uneven_tree.h)
     // Of rigid/figures.h.
     Array<std::uint32_t> figures;      // by body: the least index in its figure
     Array<std::uint64_t> figure_parts; // of awake figures, ascending

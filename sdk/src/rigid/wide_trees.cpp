@@ -200,7 +200,7 @@ public:
     void solve() {
         move_points(true, all_lanes());
         for_each_joint([this](ArticulatedJoint& part, WideTreeJoint& wide, std::uint32_t lane) {
-            add_tree_push(scene_.joints[part.joint], get(wide.push, lane));
+            add_tree_push(scene_.joints[part.joint], get(wide.push, lane), false);
         });
     }
 

@@ -53,10 +53,11 @@ RigidChecks::RigidChecks(const lks_world& world) : world_(world) {
         .within(turn_one + unit_room, 4)
         .between(0, (std::int64_t{1} << 32) + greatest_u32); // any rest_ticks; asleep 0 or 1
     joint_ranges_
-        .within(greatest_push, 9)  // push, turn, grip
-        .between(0, greatest_push) // swing_push
+        .within(greatest_uneven_push, 3) // push
+        .within(greatest_push, 6)        // turn, grip
+        .between(0, greatest_push)       // swing_push
         .within(greatest_push, 1)
-        .within(greatest_sum, 3)
+        .within(greatest_pushed, 3)
         .within(5 * greatest_sum, 3);
     for (std::uint32_t i = 0; i < greatest_point_count; ++i) {
         push_ranges_

@@ -1,0 +1,210 @@
+#include "rigid/uneven_tree.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "collide/saturation.h"
+#include "rigid/articulation_algebra.h"
+#include "rigid/articulation_walk.h"
+
+namespace lks {
+namespace {
+
+using namespace tree_detail;
+using fixed::Vec3;
+
+constexpr int bits = uneven_fraction_bits;
+
+// Of a body in a solve, World, 256 m: what is thrown about stays within the world.
+constexpr std::int64_t greatest_shift = std::int64_t{1} << (world_fraction_bits + 8);
+
+// One factor of 40 fraction bits, the other and the result in any format; wraps.
+std::int64_t multiply_40(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>((fixed::multiply_signed(a, b) >> bits).lo);
+}
+
+Vec3 multiply_40(std::int64_t a, const Vec3& v) {
+    return {multiply_40(a, v.x), multiply_40(a, v.y), multiply_40(a, v.z)};
+}
+
+std::int64_t dot_40(const Vec3& a, const Vec3& b) {
+    return plus(plus(multiply_40(a.x, b.x), multiply_40(a.y, b.y)), multiply_40(a.z, b.z));
+}
+
+// What is no more than roundings lets nothing be pushed.
+FineInverse invert_fine(std::int64_t pivot) {
+    constexpr std::int64_t least = 1 << 5;
+    if (pivot < least) {
+        return {0, 0};
+    }
+    // pivot = m / 2^zeros with m from 2^62 on; the reciprocal is 2^124 / m.
+    const int zeros = std::countl_zero(static_cast<std::uint64_t>(pivot)) - 1;
+    const auto m = static_cast<std::uint64_t>(pivot) << zeros;
+    const auto reciprocal =
+        static_cast<std::int64_t>(fixed::divide(fixed::UInt128{std::uint64_t{1} << 60, 0}, m).quotient.lo);
+    return {reciprocal, 124 - bits - zeros};
+}
+
+// To the nearest; saturates.
+std::int64_t divide(std::int64_t value, const FineInverse& inverse) {
+    return fixed::multiply_shift(value, inverse.mantissa, inverse.shift);
+}
+
+ArticulatedInverse fine_inverse(const Body& body, std::int64_t share) {
+    ArticulatedInverse inverse{};
+    inverse.shift[0] = inverse.shift[3] = inverse.shift[5] = share;
+    const SymmetricMatrix& m = body.world_inverse;
+    const std::int32_t entries[6] = {m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
+    for (int i = 0; i < 6; ++i) {
+        inverse.turn[i] = fixed::multiply_shift(share, entries[i], 30 - body.inverse_shift);
+    }
+    return inverse;
+}
+
+void factor_points(const std::int64_t (&d)[6], UnevenJoint& joint) {
+    joint.pivots[0] = invert_fine(d[0]);
+    joint.l21 = divide(d[1], joint.pivots[0]);
+    joint.l31 = divide(d[2], joint.pivots[0]);
+    joint.pivots[1] = invert_fine(minus(d[3], multiply_40(joint.l21, d[1])));
+    const std::int64_t below = minus(d[4], multiply_40(joint.l21, d[2]));
+    joint.l32 = divide(below, joint.pivots[1]);
+    joint.pivots[2] =
+        invert_fine(minus(minus(d[5], multiply_40(joint.l31, d[2])), multiply_40(joint.l32, below)));
+}
+
+// L⁻¹·v.
+Vec3 forward(const UnevenJoint& joint, Vec3 v) {
+    v.y = minus(v.y, multiply_40(joint.l21, v.x));
+    v.z = minus(minus(v.z, multiply_40(joint.l31, v.x)), multiply_40(joint.l32, v.y));
+    return v;
+}
+
+Vec3 divided(const UnevenJoint& joint, const Vec3& v) {
+    return {divide(v.x, joint.pivots[0]), divide(v.y, joint.pivots[1]), divide(v.z, joint.pivots[2])};
+}
+
+// D⁻¹·v.
+Vec3 solved(const UnevenJoint& joint, const Vec3& v) {
+    Vec3 x = divided(joint, forward(joint, v));
+    x.y = minus(x.y, multiply_40(joint.l32, x.z));
+    x.x = minus(minus(x.x, multiply_40(joint.l21, x.y)), multiply_40(joint.l31, x.z));
+    return x;
+}
+
+// W −= U·D⁻¹·Uᵀ.
+void fold_in(ArticulatedInverse& w, const UnevenJoint& joint) {
+    Vec3 rows[6]; // of U·L⁻ᵀ
+    Vec3 shares[6];
+    for (int i = 0; i < 3; ++i) {
+        rows[i] = forward(joint, {component(joint.column_shift[0], i), component(joint.column_shift[1], i),
+                                  component(joint.column_shift[2], i)});
+        rows[3 + i] = forward(joint, {component(joint.column_turn[0], i), component(joint.column_turn[1], i),
+                                      component(joint.column_turn[2], i)});
+    }
+    for (int i = 0; i < 6; ++i) {
+        shares[i] = divided(joint, rows[i]);
+    }
+    int entry = 0;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = i; j < 3; ++j) {
+            w.shift[entry] = minus(w.shift[entry], dot_40(shares[i], rows[j]));
+            w.turn[entry] = minus(w.turn[entry], dot_40(shares[3 + i], rows[3 + j]));
+            ++entry;
+        }
+        for (int j = 0; j < 3; ++j) {
+            w.mixed[3 * i + j] = minus(w.mixed[3 * i + j], dot_40(shares[i], rows[3 + j]));
+        }
+    }
+}
+
+class UnevenTree : public ArticulationWalk {
+public:
+    UnevenTree(RigidScene& scene, const ArticulatedTree& range) : ArticulationWalk(scene, range) {}
+
+    void factor() {
+        for_each_body(
+            [](Body& body, ArticulatedBody& part) { part.inverse = fine_inverse(body, part.fine_share); });
+        for_each_joint_back([this](ArticulatedJoint& part, const Joint& joint) {
+            UnevenJoint& fine = uneven_joint(scene_, part);
+            place_levers(part, joint);
+            factor_joint(part, fine);
+            if (&part != &scene_.tree_joints[range_.first_joint]) {
+                fold_in(scene_.articulated[part.parent].inverse, fine);
+            }
+        });
+    }
+
+    static UnevenJoint& uneven_joint(RigidScene& scene, const ArticulatedJoint& part) {
+        return scene.uneven_joints[static_cast<std::size_t>(&part - scene.tree_joints.begin())];
+    }
+
+private:
+    void place_levers(ArticulatedJoint& part, const Joint& joint) {
+        part.pair_share = scene_.articulated[part.parent].share;
+        if (part.child_moves) {
+            part.pair_share = std::max(part.pair_share, scene_.articulated[part.child].share);
+            part.child_lever = lever_in_units(scene_.bodies[part.child], point_of(joint, part.child_is_a));
+        }
+        part.parent_lever = lever_in_units(scene_.bodies[part.parent], point_of(joint, !part.child_is_a));
+    }
+
+    void factor_joint(const ArticulatedJoint& part, UnevenJoint& fine) {
+        std::int64_t d[6] = {};
+        if (part.child_moves) {
+            Vec3 shift[3];
+            Vec3 turn[3];
+            push_columns(scene_.articulated[part.child].inverse, part.child_lever, shift, turn);
+            add_point_motion(part.child_lever, shift, turn, d);
+        }
+        push_columns(scene_.articulated[part.parent].inverse, part.parent_lever, fine.column_shift,
+                     fine.column_turn);
+        add_point_motion(part.parent_lever, fine.column_shift, fine.column_turn, d);
+        factor_points(d, fine);
+    }
+};
+
+} // namespace
+
+void factor_uneven(RigidScene& scene, const ArticulatedTree& tree) {
+    UnevenTree(scene, tree).factor();
+}
+
+void fold_uneven(RigidScene& scene, ArticulatedJoint& part, const Vec3& apart) {
+    const UnevenJoint& fine = UnevenTree::uneven_joint(scene, part);
+    ArticulatedBody& parent = scene.articulated[part.parent];
+    Vec3 left = apart - point_motion(parent, part.parent_lever);
+    if (part.child_moves) {
+        left = left + point_motion(scene.articulated[part.child], part.child_lever);
+    }
+    part.push = -solved(fine, left);
+    clamp_vector(part.push, greatest_uneven_push);
+    const std::int64_t pushes[3] = {part.push.x, part.push.y, part.push.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        parent.shift = parent.shift - multiply_40(pushes[axis], fine.column_shift[axis]);
+        parent.turn = parent.turn - multiply_40(pushes[axis], fine.column_turn[axis]);
+    }
+}
+
+Vec3 push_uneven(RigidScene& scene, const ArticulatedJoint& part) {
+    const UnevenJoint& fine = UnevenTree::uneven_joint(scene, part);
+    ArticulatedBody& parent = scene.articulated[part.parent];
+    const auto along = [&](int axis) {
+        return plus(dot_40(fine.column_shift[axis], parent.force),
+                    dot_40(fine.column_turn[axis], parent.torque));
+    };
+    Vec3 push = part.push + solved(fine, {along(0), along(1), along(2)});
+    clamp_vector(push, greatest_uneven_push);
+    add_force(parent, part.parent_lever, -push);
+    if (part.child_moves) {
+        add_force(scene.articulated[part.child], part.child_lever, push);
+    }
+    return push;
+}
+
+Move move_uneven(const Body& body, const ArticulatedBody& part) {
+    Move move = move_of<bits>(body, part.fine_share, part);
+    clamp_vector(move.shift, greatest_shift);
+    return move;
+}
+
+} // namespace lks
