@@ -622,6 +622,21 @@ bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& famil
     return true;
 }
 
+bool is_torn(const ChainCoefficients& chain, const DistanceArrays& arrays) {
+    const auto position = [&](std::uint32_t index) {
+        const std::uint32_t p = chain.particles[index];
+        return Vec3{arrays.x[p], arrays.y[p], arrays.z[p]};
+    };
+    for (std::uint32_t i = 0; i < chain.count(); ++i) {
+        fixed::NormalisedVector n{};
+        if (measure_segment(position(i + 1) - position(i), n) &&
+            n.length - chain.rest_lengths[i] > chain.slacks[i]) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void mend_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
                 const DistanceArrays& arrays, const Kernels& kernels, std::int64_t* memory) {
     static_cast<void>(ChainSolve(chain, family, arrays, kernels, memory, true).run(false));

@@ -42,7 +42,8 @@
 // Both hold while segments turn by little. A rope that was blown apart, its segments at all angles and far
 // too long, a solve would blow further, for ever; sweeps are slow but bring it together from anywhere. So a
 // torn rope is swept first, and then solved for changes that are short against its segments; both again
-// until it is whole, or for so many times.
+// until it is whole, or for so many times. One that contacts tear again is left swept
+// (solver/object_tick.cpp).
 #pragma once
 
 #include <cstddef>
@@ -113,10 +114,19 @@ private:
     std::size_t length_;
 };
 
+// Room behind the work for what a torn rope is before it is mended: particles now and where the substep
+// began, and multipliers.
+inline std::size_t kept_words(const lks_asset& asset) {
+    return 6 * std::size_t{asset.vertex_count()} + asset.constraints.size();
+}
+
 // One iteration. `memory` has room for the work. False where a segment is torn, or the solve tore it: longer
 // than twice its rest length, more where it is soft.
 [[nodiscard]] bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
                                const DistanceArrays& arrays, const Kernels& kernels, std::int64_t* memory);
+
+// Whether a segment is torn.
+[[nodiscard]] bool is_torn(const ChainCoefficients& chain, const DistanceArrays& arrays);
 
 // The same for a torn rope, whose segments have been swept: changes each by half its length at most.
 void mend_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,

@@ -170,6 +170,10 @@ public:
             bounds_.reset();
             start_bounds_.reset();
         }
+        if (touched && mended_from_ && is_torn(coefficients_.chain, distance_arrays())) {
+            give_way_to_contacts();
+            resolve_all_contacts(substep);
+        }
     }
 
 private:
@@ -194,13 +198,52 @@ private:
         const FamilyCoefficients& stretch = coefficients_.families[LKS_CONSTRAINT_STRETCH];
         const DistanceArrays arrays = distance_arrays();
         std::int64_t* const memory = scratch_.chain.data();
+        mended_from_ = false;
         for (int mended = 0; mended < most_mendings &&
                              !solve_chain(coefficients_.chain, stretch, arrays, *world_.kernels, memory);
              ++mended) {
+            if (mended == 0) {
+                keep_torn();
+            }
             sweep_stretch();
             sweep_stretch();
             mend_chain(coefficients_.chain, stretch, arrays, *world_.kernels, memory);
         }
+    }
+
+    // Before it is mended, a rope that was torn when the substep began.
+    void keep_torn() {
+        mended_from_ = candidate_count_ != 0 && is_torn(coefficients_.chain, start_arrays());
+        if (mended_from_) {
+            each_kept([](std::int64_t* values, std::int64_t* kept, std::uint32_t count) {
+                std::copy_n(values, count, kept);
+            });
+        }
+    }
+
+    // A rope that was torn, was mended, and was torn again by contacts: what holds it apart is neither its
+    // inertia nor its pins, and to mend it in each substep anew would make speed of it without end. It is
+    // swept instead, from where it was.
+    void give_way_to_contacts() {
+        mended_from_ = false;
+        each_kept([](std::int64_t* values, const std::int64_t* kept, std::uint32_t count) {
+            std::copy_n(kept, count, values);
+        });
+        sweep_stretch();
+        sweep_stretch();
+    }
+
+    // use(values, where they are kept, how many) for all of a rope that a solve and contacts change.
+    template <typename Use>
+    void each_kept(const Use& use) {
+        std::int64_t* kept = scratch_.chain.data() + ChainWork::words(coefficients_.chain.count());
+        const std::uint32_t count = object_.count();
+        for (int axis = 0; axis < 3; ++axis) {
+            use(object_.axis(axis), kept, count);
+            use(object_.start_axis(axis), kept + count, count);
+            kept += 2 * std::size_t{count};
+        }
+        use(object_.multipliers.data(), kept, static_cast<std::uint32_t>(object_.multipliers.size()));
     }
 
     // Its multipliers are the direct solve's alone.
@@ -328,6 +371,15 @@ private:
         bounds.high = {higher(bounds.high.x), higher(bounds.high.y), higher(bounds.high.z)};
     }
 
+    // Where particles began the substep, as if they were there now.
+    DistanceArrays start_arrays() {
+        DistanceArrays arrays = distance_arrays();
+        arrays.x = object_.start_axis(0);
+        arrays.y = object_.start_axis(1);
+        arrays.z = object_.start_axis(2);
+        return arrays;
+    }
+
     DistanceArrays distance_arrays() {
         return {object_.axis(0),
                 object_.axis(1),
@@ -363,6 +415,7 @@ private:
     std::optional<Bounds> start_bounds_, bounds_;
     std::optional<ParticleRows> rows_; // where constraints are swept in rows
     bool are_in_rows_ = false;         // the arrays are those of before
+    bool mended_from_ = false;         // where a torn rope was before it was mended is kept
 };
 
 // How one object, or several side by side, move through one tick: all do each step before any does the next,

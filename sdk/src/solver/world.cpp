@@ -105,10 +105,12 @@ const KnownAsset* lks_world::find_asset(std::uint64_t fingerprint) const {
 
 bool lks_world::reserve_scratch(const lks_asset& asset, const Coefficients& coefficients) {
     const lks::ChainCoefficients& chain = coefficients.chain;
+    const std::size_t chain_words =
+        chain.empty() ? 0 : lks::ChainWork::words(chain.count()) + lks::kept_words(asset);
     for (std::uint32_t worker = 0; worker < worker_count; ++worker) {
         if (!scratch[worker].distances.reserve(asset.batches.size()) ||
             !scratch[worker].rows.reserve(lks::row_words(asset, coefficients)) ||
-            !scratch[worker].chain.reserve(chain.empty() ? 0 : lks::ChainWork::words(chain.count())) ||
+            !scratch[worker].chain.reserve(chain_words) ||
             !scratch[worker].anchors.reserve(asset.tethers.anchors.size())) {
             return false;
         }
