@@ -412,3 +412,198 @@ TEST_CASE("a fast body does not pass through a cloth, nor a fast point through a
     CHECK(metres(other.positions(id)[0].x) < state_of(other, wall).position.x);
     CHECK(state_of(other, wall).velocity.x > 0);
 }
+
+namespace {
+
+// A humanoid of 78 kg that hangs by its left hand on a rope, let go with its arms level.
+struct HangingHumanoid {
+    double error = 0; // of the attachment, at the worst
+    double gain = 0;  // of energy since it was least
+    double apart = 0; // the hand from the pin, at the end
+    double force = 0; // upwards, mean of the last two seconds
+    double weight = 0;
+};
+
+HangingHumanoid hang_humanoid(std::uint32_t substeps) {
+    World world(world_def(60, substeps));
+    lks_bone bones[LKS_HUMANOID_BONES];
+    lks_body_shape shapes[LKS_HUMANOID_BONES];
+    REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
+    lks_ragdoll_def def = lks_default_ragdoll_def();
+    def.bones = bones;
+    def.bone_count = LKS_HUMANOID_BONES;
+    lks_body_id bodies[LKS_HUMANOID_BONES];
+    REQUIRE(lks_world_add_ragdoll(world, &def, bodies, nullptr) == LKS_OK);
+    const lks_body_id hand = bodies[LKS_HUMANOID_HAND_LEFT];
+    lks_rope_def rope_def = lks_default_rope_def();
+    lks_asset* rope = nullptr;
+    REQUIRE(lks_asset_create_rope(&rope_def, &rope) == LKS_OK);
+    const Vector from = state_of(world, hand).position;
+    lks_object_def object = lks_default_object_def();
+    object.asset = rope;
+    object.transform.position = fixed(from.x, from.y, from.z);
+    REQUIRE(lks_rotation_from_axis_angle(0, 0, 1, 90, &object.transform.rotation) == LKS_OK);
+    lks_object_id id{};
+    REQUIRE(lks_world_add_object(world, &object, &id) == LKS_OK);
+    world.pin(id, 50);
+    const lks_attachment_id attachment = attach(world, to_body(id, 0, hand));
+    HangingHumanoid result;
+    double least = 1e9;
+    for (int tick = 0; tick < 600; ++tick) {
+        world.step();
+        result.error = std::max(result.error, error_of(world, attachment));
+        double energy = 0;
+        result.weight = 0;
+        for (const lks_body_id body : bodies) {
+            const BodyState state = state_of(world, body);
+            const double mass = mass_of(world, body);
+            energy += mass * (state.velocity.dot(state.velocity) / 2 + g * state.position.y);
+            result.weight += mass * g;
+        }
+        least = std::min(least, energy);
+        result.gain = std::max(result.gain, energy - least);
+        result.force += tick >= 480 ? force_of(world, attachment).y / 120 : 0;
+    }
+    result.apart = (state_of(world, hand).position - from - Vector{0, 5, 0}).length();
+    lks_asset_release(rope);
+    return result;
+}
+
+} // namespace
+
+// What it weighs the rope bears, whose point at the hand has 10 g. It fell off by 470, 400 and 160 m with 1,
+// 2 and 4 substeps.
+TEST_CASE("a humanoid on a light rope stays on it with any number of substeps") {
+    for (const std::uint32_t substeps : {1u, 2u, 4u, 8u}) {
+        const HangingHumanoid hung = hang_humanoid(substeps);
+        INFO(substeps << " substeps: off by " << 1e3 * hung.error << " mm, gained " << hung.gain
+                      << " J, the hand " << hung.apart << " m from the pin, force " << hung.force << " of "
+                      << hung.weight);
+        CHECK(hung.error < 1e-4);
+        CHECK(hung.gain < (substeps < 4 ? 100 : 12)); // 770 J are lost
+        CHECK(std::abs(hung.apart - 5) < 0.02);
+        CHECK(std::abs(hung.force / hung.weight - 1) < 0.01);
+    }
+}
+
+TEST_CASE("a heavy body on a light rope stays on it, and swings without gaining") {
+    for (const double mass : {5.0, 80.0}) {
+        for (const std::uint32_t substeps : {1u, 2u, 4u, 8u}) {
+            World world(world_def(60, substeps));
+            Chain chain;
+            chain.segments = 10;
+            chain.length = 1;
+            chain.particle_mass = 0.02;
+            chain.solver = LKS_ROPE_DIRECT;
+            const Asset rope = chain.build();
+            const lks_object_id object = world.add(rope, at(0, 0, 0));
+            world.pin(object, 0);
+            lks_body_def def = lks_default_body_def();
+            def.mass = fixed(mass);
+            def.filter.mask = 0;
+            const lks_body_id box = add_body(world, box_shape(0.1, 0.1, 0.1), fixed(1.1, 0, 0), def);
+            const lks_attachment_id id = attach(world, to_body(object, 10, box, fixed(-0.1, 0, 0)));
+            double error = 0, least = 0, gain = 0;
+            for (int tick = 0; tick < 300; ++tick) {
+                world.step();
+                error = std::max(error, error_of(world, id));
+                const BodyState state = state_of(world, box);
+                const double energy = mass * (state.velocity.dot(state.velocity) / 2 + g * state.position.y +
+                                              0.02 / 6 * state.spin.dot(state.spin) * 2);
+                least = std::min(least, energy);
+                gain = std::max(gain, energy - least);
+            }
+            INFO(mass << " kg, " << substeps << " substeps: off by " << 1e3 * error << " mm, gained " << gain
+                      << " J");
+            CHECK(error < 1e-4);
+            CHECK(gain < 0.06 * mass * g); // 6 cm; a part of it is the rope's
+        }
+    }
+}
+
+// Nothing holds the rope: what its ends weigh counts in its mean, too.
+TEST_CASE("two heavy bodies that a light rope ties keep their momentum") {
+    for (const std::uint32_t substeps : {1u, 4u, 10u}) {
+        World world(world_def(60, substeps));
+        REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
+        Chain chain;
+        chain.segments = 10;
+        chain.length = 1;
+        chain.particle_mass = 0.01;
+        chain.solver = LKS_ROPE_DIRECT;
+        const Asset rope = chain.build();
+        const lks_object_id object = world.add(rope, at(0, 0, 0));
+        lks_body_def def = lks_default_body_def();
+        def.filter.mask = 0;
+        def.velocity = fixed(0.5, 3, -1);
+        def.mass = fixed(40);
+        const lks_body_id first = add_body(world, box_shape(0.1, 0.1, 0.1), fixed(-0.1, 0, 0), def);
+        def.velocity = fixed(1, -2, 0);
+        def.mass = fixed(70);
+        const lks_body_id second = add_body(world, box_shape(0.1, 0.1, 0.1), fixed(1.1, 0, 0), def);
+        const lks_attachment_id ends[2] = {attach(world, to_body(object, 0, first, fixed(0.1, 0, 0))),
+                                           attach(world, to_body(object, 10, second, fixed(-0.1, 0, 0)))};
+        const auto momentum = [&] {
+            return state_of(world, first).velocity * 40 + state_of(world, second).velocity * 70 +
+                   momentum_of(world, object, 0.01);
+        };
+        const Vector before = Vector{0.5, 3, -1} * 40 + Vector{1, -2, 0} * 70;
+        double error = 0;
+        for (int tick = 0; tick < 300; ++tick) {
+            world.step();
+            error = std::max({error, error_of(world, ends[0]), error_of(world, ends[1])});
+        }
+        const Vector off = momentum() - before;
+        const double apart = (state_of(world, first).position - state_of(world, second).position).length();
+        INFO(substeps << " substeps: " << off.length() << " of " << before.length() << ", off by "
+                      << 1e3 * error << " mm, " << apart << " m apart");
+        CHECK(off.length() < 1e-4 * before.length());
+        CHECK(error < 0.01);
+        CHECK(apart < 1.3);
+    }
+}
+
+// Its joints are swept, and its attachment holds what that can; it does not disturb what the rope bears.
+TEST_CASE("a rope bears a heavy body beside a figure of too uneven masses") {
+    for (const double mass : {300.0, 5000.0}) {
+        for (const std::uint32_t substeps : {1u, 4u}) {
+            World world(world_def(60, substeps));
+            Chain chain;
+            chain.segments = 10;
+            chain.length = 1;
+            chain.particle_mass = 0.02;
+            chain.direction = {0, -1, 0};
+            chain.solver = LKS_ROPE_DIRECT;
+            const Asset rope = chain.build();
+            const lks_object_id object = world.add(rope, at(0, 0, 0));
+            world.pin(object, 0);
+            lks_body_def def = lks_default_body_def();
+            def.filter.mask = 0;
+            const lks_body_shape box = box_shape(0.1, 0.1, 0.1);
+            def.mass = fixed(0.1);
+            const lks_body_id light = add_body(world, box, fixed(0.1, -0.5, 0), def);
+            def.mass = fixed(mass);
+            const lks_body_id heavy = add_body(world, box, fixed(0.3, -0.5, 0), def);
+            def.mass = fixed(20);
+            const lks_body_id end = add_body(world, box, fixed(0, -1.1, 0), def);
+            lks_joint_def joint = lks_default_joint_def();
+            joint.frame_a.position = fixed(0.1, 0, 0);
+            joint.frame_b.position = fixed(-0.1, 0, 0);
+            add_joint(world, joint, light, heavy);
+            attach(world, to_body(object, 5, light, fixed(-0.1, 0, 0)));
+            const lks_attachment_id borne = attach(world, to_body(object, 10, end, fixed(0, 0.1, 0)));
+            double error = 0, highest = -1;
+            for (int tick = 0; tick < 300; ++tick) {
+                world.step();
+                error = std::max(error, error_of(world, borne));
+                for (const lks_body_id body : {light, heavy, end}) {
+                    highest = std::max(highest, state_of(world, body).position.y);
+                }
+            }
+            INFO(mass << " kg, " << substeps << " substeps: off by " << 1e3 * error << " mm, up to "
+                      << highest << " m");
+            CHECK(error < 1e-4);
+            CHECK(highest < -0.5);
+        }
+    }
+}

@@ -7,6 +7,11 @@
  * what can't move is refused where a pin, or another one, holds the vertex there already; a body that becomes
  * kinematic is not asked, and of two that hold one vertex then only one may.
  *
+ * What hangs rigidly on a rope that is solved at once (LKS_ROPE_DIRECT, or chosen so by the world) stays on
+ * it up to 1,000 times the mass of the rope with one substep at 60 Hz, and 20,000 times with four. On ropes
+ * that are swept, on cloth and between ropes a body falls off that weighs too much: in a substep it parts
+ * from its vertex by what it falls times its mass over the vertex's.
+ *
  * Method: extended position based dynamics (Macklin et al. 2016, eq. 26), in all three directions at once.
  */
 #ifndef LOCKSTITCH_ATTACHMENT_H

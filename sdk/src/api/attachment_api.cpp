@@ -6,6 +6,7 @@
 #include "api/attachment_checks.h"
 #include "api/read_out.h"
 #include "rigid/coupling.h"
+#include "rigid/rope_loads.h"
 #include "rigid/sleep.h"
 
 using namespace lks;
@@ -88,6 +89,9 @@ lks_result lks_world_add_attachment(lks_world* world, const lks_attachment_def* 
     }
     if (const lks_result result = check_contradictions(*world, *def, made); result != LKS_OK) {
         return result;
+    }
+    if (may_load_rope(made.description, sides.object) && !sides.object.reserve_coefficients()) {
+        return world->fail_out_of_memory("an attachment");
     }
     RigidScene& scene = world->rigid;
     const std::uint32_t index = first_free(scene.attachment_slots);

@@ -1,5 +1,5 @@
 // Scaled: a non-negative software number of 64 bits with its own exponent, for what is computed once: masses,
-// compliances, coefficients. Never used by a tick.
+// compliances, coefficients. In a tick only where a rope bears a body, by particle (rigid/rope_loads.h).
 //
 // value = mantissa * 2^exponent; the mantissa is zero (and then so is the exponent) or has its top bit set.
 //

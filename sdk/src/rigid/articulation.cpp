@@ -189,6 +189,40 @@ public:
         });
     }
 
+    // What a push from outside does to all of it: the force and torque of each body. Never of uneven masses.
+    void bear(std::uint32_t index, const Vec3& point, const Vec3& push) {
+        for_each_body([](const Body&, ArticulatedBody& part) {
+            part.shift = part.turn = part.force = part.torque = {0, 0, 0};
+        });
+        const Body& body = scene_.bodies[index];
+        ArticulatedBody& pushed = scene_.articulated[index];
+        const Vec3 torque = cross_32(lever_in_units(body, point), push);
+        pushed.shift = rounded_share(pushed.share, push);
+        pushed.turn = own_turn(body, pushed.share, torque);
+        for_each_joint_back([this](ArticulatedJoint& part, const Joint&) { fold_error(part, {0, 0, 0}); });
+        for_each_joint([this](ArticulatedJoint& part, const Joint&) { part.push = push_of(part); });
+        pushed.force = pushed.force + push;
+        pushed.torque = pushed.torque + torque;
+    }
+
+    // After that: how far the point has gone.
+    Vec3 borne_motion(std::uint32_t index, const Vec3& point) const {
+        const Body& body = scene_.bodies[index];
+        const ArticulatedBody& part = scene_.articulated[index];
+        return rounded_share(part.share, part.force) +
+               cross_32(own_turn(body, part.share, part.torque), lever_in_units(body, point));
+    }
+    void keep_borne() {
+        for_each_joint([](const ArticulatedJoint& part, Joint& joint) {
+            add_tree_push(joint, multiply_32(part.pair_share, part.child_is_a ? -part.push : part.push),
+                          false);
+        });
+    }
+    void move_borne() {
+        for_each_body(
+            [](Body& body, const ArticulatedBody& part) { apply(body, move_of(body, part.share, part)); });
+    }
+
     // True: a limit was far off.
     bool undo_errors() {
         bool far_off = false;
@@ -349,6 +383,30 @@ void solve_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     all.solve([](const Joint& joint, const Body& a,
                  const Body& b) { return joint_offset(joint, a, b) - joint.start; },
               [&tree](Joint& joint, const Vec3& push) { add_tree_push(joint, push, tree.is_uneven); });
+}
+
+std::int64_t response_of(RigidScene& scene, const ArticulatedTree& tree, std::uint32_t body,
+                         const Vec3& point, const Direction& along) {
+    Tree all(scene, tree);
+    constexpr std::int64_t unit = std::int64_t{1} << (world_fraction_bits - direction_fraction_bits);
+    all.bear(body, point, {along.x * unit, along.y * unit, along.z * unit});
+    return fixed::dot(along, all.borne_motion(body, point));
+}
+
+void push_from_outside(RigidScene& scene, const ArticulatedTree& tree, std::uint32_t body, const Vec3& point,
+                       const Vec3& push) {
+    Tree all(scene, tree);
+    all.bear(body, point, push);
+    all.keep_borne();
+    all.move_borne();
+}
+
+void shift_from_outside(RigidScene& scene, const ArticulatedTree& tree, std::uint32_t body, const Vec3& point,
+                        const Vec3& push) {
+    Tree all(scene, tree);
+    all.bear(body, point, push);
+    all.move_borne();
+    all.make_units();
 }
 
 void stiffen_further(RigidScene& scene, const ArticulatedTree& tree) {

@@ -27,6 +27,16 @@ void find_articulations(RigidScene& scene);
 void factor_articulation(RigidScene& scene, const ArticulatedTree& tree);
 // Brings back to zero how much the points have parted in this substep, with speed.
 void solve_articulation(RigidScene& scene, const ArticulatedTree& tree);
+// What holds it from outside (rigid/rope_loads.h): how far a body's point, from its centre of mass in its
+// frame, moves by a push of one along a direction, with its joints and all that they carry; and a push there.
+// Both in the tree's unit, World.
+std::int64_t response_of(RigidScene& scene, const ArticulatedTree& tree, std::uint32_t body,
+                         const fixed::Vec3& point, const fixed::Direction& along);
+void push_from_outside(RigidScene& scene, const ArticulatedTree& tree, std::uint32_t body,
+                       const fixed::Vec3& point, const fixed::Vec3& push);
+// The same at a substep's end, without giving speed: no joint remembers it.
+void shift_from_outside(RigidScene& scene, const ArticulatedTree& tree, std::uint32_t body,
+                        const fixed::Vec3& point, const fixed::Vec3& push);
 // Where it pushes much more in this substep than in the one before: bodies turn yet more heavily. Its factors
 // are to be found again.
 void stiffen_further(RigidScene& scene, const ArticulatedTree& tree);

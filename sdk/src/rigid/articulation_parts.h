@@ -22,6 +22,9 @@ struct ArticulatedBody {
     std::int64_t share;      // of the tree's greatest inverse mass
     std::int64_t fine_share; // the same with 40 fraction bits: of uneven trees
     bool attached;
+    bool loads_rope;         // by its attachments, which then leave the tree as it is (rigid/rope_loads.h)
+    std::uint32_t tree;      // or none
+    std::uint32_t rope_load; // its first, or none
     std::int64_t load; // (hω)² of its swing under what pulls at it, World: as heavily as that it turns
     std::int64_t found_load;
     int lowered; // of uneven trees: what its inverse inertia's exponent is less by meanwhile
@@ -56,13 +59,17 @@ struct ArticulatedJoint {
     fixed::Vec3 push;         // World, in the tree's unit; on the child
 };
 
+inline constexpr std::uint32_t no_tree = UINT32_MAX;
+inline constexpr std::uint32_t no_rope_load = UINT32_MAX;
+
 // Which of the scene's tree_bodies and tree_joints are one tree's.
 struct ArticulatedTree {
     std::uint32_t first_body;
     std::uint32_t body_end;
     std::uint32_t first_joint;
     std::uint32_t joint_end;
-    bool is_held;   // by a joint to what does not move
+    bool is_held;   // by a joint to what does not move, or by a rope that such a thing holds
+    bool is_loaded; // it hangs on ropes that bear it
     bool is_uneven; // one of its bodies has a thousand times the mass of another, and more
 };
 

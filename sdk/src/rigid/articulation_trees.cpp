@@ -4,6 +4,7 @@
 #include "memory/sort_numbers.h"
 #include "rigid/articulation.h"
 #include "rigid/body_roots.h"
+#include "rigid/rope_loads.h"
 #include "rigid/uneven_tree.h"
 
 namespace lks {
@@ -57,6 +58,7 @@ public:
             }
         }
         mark_attached();
+        mark_loads();
         sort_numbers(scene_.tree_links, scene_.sorting);
         std::size_t end = 0;
         for (std::size_t i = 0; i < scene_.tree_links.size(); i = end) {
@@ -65,6 +67,13 @@ public:
             if (roots_.root(body) == body) {
                 walk(body);
             }
+        }
+        if (any_left_out_) {
+            drop_loads(scene_);
+            for (ArticulatedBody& body : scene_.articulated) {
+                body.rope_load = no_rope_load;
+            }
+            mark_loads();
         }
         const std::size_t count = scene_.tree_joints.size(); // within their room
         static_cast<void>(scene_.held_joints.resize(any_held_ ? count : 0));
@@ -112,22 +121,37 @@ private:
 
     void mark_attached() {
         for (ArticulatedBody& body : scene_.articulated) {
-            body.attached = false;
+            body.attached = body.loads_rope = false;
+            body.tree = no_tree;
+            body.rope_load = no_rope_load;
         }
         for (std::size_t i = 0; i < scene_.attachments.size(); ++i) {
             const AttachmentDescription& d = scene_.attachments[i].description;
             if (scene_.attachment_slots[i].used && d.kind == LKS_ATTACHMENT_TO_BODY) {
-                scene_.articulated[d.other].attached = true;
+                ArticulatedBody& body = scene_.articulated[d.other];
+                (scene_.attachments[i].loads_rope ? body.loads_rope : body.attached) = true;
             }
         }
     }
 
+    // A second rope of the same body is left to itself.
+    void mark_loads() {
+        for (std::uint32_t i = 0; i < scene_.rope_loads.size(); ++i) {
+            const std::uint32_t body = scene_.attachments[scene_.rope_loads[i].attachment].description.other;
+            std::uint32_t& load = scene_.articulated[body].rope_load;
+            load = load == no_rope_load ? i : load;
+        }
+    }
+
     // Bodies and joints from the root on. What does not move is a leaf. Trees with attachments are left to
-    // the sweeps: an attachment begins from nothing and would find the bodies in free fall.
+    // the sweeps: an attachment begins from nothing and would find the bodies in free fall. What hangs on a
+    // rope that bears it is pushed as a whole, unless its masses are uneven: no rope bears those.
     void walk(std::uint32_t root) {
         const auto begin = static_cast<std::uint32_t>(scene_.tree_bodies.size());
         const auto begin_joints = static_cast<std::uint32_t>(scene_.tree_joints.size());
         bool attached = false;
+        bool loaded = false;
+        bool anchored = false;
         scene_.tree_bodies.push_reserved(root);
         std::uint32_t lightest = root;
         for (std::size_t next = begin; next < scene_.tree_bodies.size(); ++next) {
@@ -136,6 +160,8 @@ private:
                 lightest = parent;
             }
             attached = attached || scene_.articulated[parent].attached;
+            loaded = loaded || scene_.articulated[parent].loads_rope;
+            anchored = anchored || is_anchored(scene_.articulated[parent]);
             add_joints(parent);
         }
         if (attached) {
@@ -150,18 +176,35 @@ private:
             scene_.articulated[body].share = share;
             uneven = uneven || share * uneven_ratio <= std::int64_t{1} << 32;
         }
+        if (uneven && loaded) {
+            leave_out_loads(begin);
+            drop_from(begin, begin_joints);
+            return;
+        }
+        name_tree(begin);
         if (uneven) {
             find_fine_shares(begin, lightest);
         }
-        const bool held = mark_held(begin_joints);
+        const bool held = mark_held(begin_joints, anchored);
         scene_.trees.push_reserved({begin, static_cast<std::uint32_t>(scene_.tree_bodies.size()),
                                     begin_joints, static_cast<std::uint32_t>(scene_.tree_joints.size()), held,
-                                    uneven});
+                                    loaded, uneven});
         any_held_ = any_held_ || held;
         any_uneven_ = any_uneven_ || uneven;
     }
 
     // Of the bodies of the tree that begins there.
+    void name_tree(std::size_t body) {
+        for (std::size_t i = body; i < scene_.tree_bodies.size(); ++i) {
+            scene_.articulated[scene_.tree_bodies[i]].tree = static_cast<std::uint32_t>(scene_.trees.size());
+        }
+    }
+    void leave_out_loads(std::size_t body) {
+        for (std::size_t i = body; i < scene_.tree_bodies.size(); ++i) {
+            scene_.articulated[scene_.tree_bodies[i]].loads_rope = false;
+        }
+        any_left_out_ = true;
+    }
     void find_fine_shares(std::size_t body, std::uint32_t lightest) {
         for (std::size_t i = body; i < scene_.tree_bodies.size(); ++i) {
             const std::uint32_t index = scene_.tree_bodies[i];
@@ -171,9 +214,12 @@ private:
         }
     }
 
-    // The joints of the tree that begins there, where one of them is to what does not move.
-    bool mark_held(std::size_t joint) {
-        bool held = false;
+    bool is_anchored(const ArticulatedBody& body) const {
+        return body.rope_load != no_rope_load && scene_.rope_loads[body.rope_load].anchored;
+    }
+
+    // The joints of the tree that begins there, where one of them is to what does not move, or a rope is.
+    bool mark_held(std::size_t joint, bool held) {
         for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
             held = held || !scene_.tree_joints[i].child_moves;
         }
@@ -217,6 +263,7 @@ private:
     BodyRoots roots_;
     bool any_held_ = false;
     bool any_uneven_ = false;
+    bool any_left_out_ = false;
 };
 
 } // namespace

@@ -1,8 +1,10 @@
 #include "rigid/attachment.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "collide/saturation.h"
+#include "rigid/body_motion.h"
 #include "rigid/make_body.h"
 
 namespace lks {
@@ -104,11 +106,15 @@ void begin_substep(Attachment& attachment, const AttachmentSides& sides) {
     attachment.push = {0, 0, 0};
     attachment.begin = attachment_offset(attachment, sides);
     const std::int64_t diagonal = c.softness.softness + c.shares.a + (sides.body == nullptr ? c.shares.b : 0);
-    std::int64_t k[6] = {diagonal, 0, 0, diagonal, 0, diagonal};
+    std::int64_t k[6] = {};
     attachment.side = {};
     if (sides.body != nullptr) {
         const Vec3 lever = fixed::rotate(sides.body->rotation, attachment.description.point);
         attachment.side = block_side(*sides.body, c.shares.b, lever, k);
+    }
+    std::copy(std::begin(k), std::end(k), std::begin(attachment.body_motion));
+    for (const int i : {0, 3, 5}) {
+        k[i] += diagonal;
     }
     if (c.movable != 0) {
         attachment.inverse = invert_block(k);
@@ -124,6 +130,11 @@ void project(Attachment& attachment, const AttachmentSides& sides) {
     attachment.push = next_push(attachment.inverse, attachment.constants.softness, offset,
                                 saturating_subtract(offset, attachment.begin), before);
     push_apart(attachment, sides, attachment.push - before);
+}
+
+void add_push(Attachment& attachment, const Vec3& push) {
+    attachment.push = attachment.push + push;
+    clamp_vector(attachment.push, greatest_push);
 }
 
 void finish_substep(Attachment& attachment) {

@@ -45,11 +45,14 @@ struct Attachment {
     // Of the tick: what it pushed in a substep of the last one.
     fixed::Vec3 expected;
 
+    bool loads_rope; // its rope bears what hangs here (rigid/rope_loads.h)
+
     // Of the substep.
     fixed::Vec3 push;
     fixed::Vec3 begin; // how far it was apart at its beginning
     BlockSide side;
     BlockInverse inverse;
+    std::int64_t body_motion[6]; // by a push at it: the body's part of what `inverse` is of
 };
 
 // The two sides; `body` or `other` is null.
@@ -86,6 +89,8 @@ void begin_tick(Attachment& attachment, const AttachmentSides& sides, const Step
 // After the prediction.
 void begin_substep(Attachment& attachment, const AttachmentSides& sides);
 void project(Attachment& attachment, const AttachmentSides& sides);
+// The body is pushed by `push`, and the particle is not: that has been moved already.
+void add_push(Attachment& attachment, const fixed::Vec3& push);
 // Adds up what it pushed.
 void finish_substep(Attachment& attachment);
 bool breaks(const Attachment& attachment);

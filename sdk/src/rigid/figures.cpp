@@ -35,6 +35,9 @@ void find_ranges(RigidScene& scene) {
             range.is_held =
                 range.is_held || !scene.bodies[d.body_a].is_awake() || !scene.bodies[d.body_b].is_awake();
         });
+        for_each_part(scene, range, Part::tree, [&](std::uint32_t tree) {
+            range.is_loaded = range.is_loaded || scene.trees[tree].is_loaded;
+        });
         range.heaviest = heaviest_of(scene, range);
         for_each_part(scene, range, Part::body, [&](std::uint32_t body) {
             scene.figure_masses[body] = mass_in(range.heaviest, scene.bodies[body]);

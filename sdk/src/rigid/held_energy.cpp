@@ -6,6 +6,7 @@
 #include "rigid/contact_search.h"
 #include "rigid/figures.h"
 #include "rigid/joint_drive.h"
+#include "rigid/rope_loads.h"
 #include "rigid/substep_motion.h"
 
 namespace lks {
@@ -16,6 +17,7 @@ using fixed::UInt128;
 using fixed::Vec3;
 
 constexpr int factor_fraction_bits = 30;
+constexpr std::int64_t one_factor = std::int64_t{1} << factor_fraction_bits;
 
 // Bodies that move alike hold together.
 bool move_alike(const Body& a, const Body& b) {
@@ -61,10 +63,65 @@ private:
     Vec3 place_;     // where it would have moved it
 };
 
+// Twice the energy of its motion in the substep, masses as shares of one.
+Int128 twice_energy(const Object& object, const InverseMass& mass) {
+    constexpr int down = coordinate_fraction_bits - motion_fraction_bits;
+    Int128 sum{0, 0};
+    for (std::uint32_t i = 0; i < object.count(); ++i) {
+        const InverseMass own = particle_inverse_mass(object, i);
+        if (own.mantissa == 0) {
+            continue;
+        }
+        std::int64_t squared = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::int64_t moved =
+                fixed::wrapping_subtract(object.axis(axis)[i], object.start_axis(axis)[i]) >> down;
+            const std::int64_t limited = std::clamp(moved, -greatest_motion, greatest_motion);
+            squared += limited * limited;
+        }
+        sum = sum + fixed::multiply_signed(squared, share_in_greater(mass, own));
+    }
+    return sum;
+}
+
+// The awake figure of a body.
+const FigureRange& figure_range(const RigidScene& scene, std::uint32_t body) {
+    return *std::lower_bound(
+        scene.figure_ranges.begin(), scene.figure_ranges.end(), scene.figures[body],
+        [&scene](const FigureRange& figure, std::uint32_t name) { return name_of(scene, figure) < name; });
+}
+
+// Its particles by the factor.
+void slow_down(Object& object, std::int64_t factor) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int64_t* const x = object.axis(axis);
+        std::int64_t* const start = object.start_axis(axis);
+        for (std::uint32_t i = 0; i < object.count(); ++i) {
+            start[i] = x[i] - fixed::multiply_shift(fixed::wrapping_subtract(x[i], start[i]), factor,
+                                                    factor_fraction_bits);
+        }
+    }
+}
+
 class HeldFigure {
 public:
     HeldFigure(RigidScene& scene, const FigureRange& range, const MotionRate& rate)
         : scene_(scene), range_(range), rate_(rate) {}
+
+    void take_out_gain_on_ropes(lks_world& world) {
+        if (!hangs_on_what_rests(world)) {
+            return;
+        }
+        for_each_own_rope([&](const RopeLoad& first) {
+            before_ = before_ + first.predicted;
+            after_ = after_ + twice_energy(*world.objects[first.object].object, range_.heaviest);
+        });
+        const std::int64_t factor = take_out_gain(Body{});
+        if (factor != one_factor) {
+            for_each_own_rope(
+                [&](const RopeLoad& first) { lks::slow_down(*world.objects[first.object].object, factor); });
+        }
+    }
 
     void take_out_gain() {
         const Body* holder = nullptr;
@@ -90,9 +147,65 @@ private:
         for_each_part(scene_, range_, kind, use);
     }
 
-    void take_out_gain(const Body& holder) {
-        Int128 before{0, 0};
-        Int128 after{0, 0};
+    // use(the first load of it)
+    template <typename Use>
+    void for_each_own_rope(const Use& use) const {
+        const Array<RopeLoad>& loads = scene_.rope_loads;
+        for (std::size_t i = 0; i < loads.size(); ++i) {
+            if ((i == 0 || loads[i].object != loads[i - 1].object) && is_own(loads[i].object)) {
+                use(loads[i]);
+            }
+        }
+    }
+
+    bool is_part(std::uint32_t body) const {
+        return scene_.bodies[body].is_awake() && scene_.figures[body] == name_of(scene_, range_);
+    }
+    bool is_own(std::uint32_t object) const {
+        return any_rope_load(scene_, object, [this](std::uint32_t body) { return is_part(body); });
+    }
+
+    // Nothing but gravity does any work on it and its ropes.
+    bool hangs_on_what_rests(const lks_world& world) const {
+        bool rests = !range_.is_held;
+        for (const ColliderSlot& slot : world.colliders) {
+            rests = rests && !(slot.used && slot.collider.moves());
+        }
+        for_each_own_rope([&](const RopeLoad& first) {
+            const Object& object = *world.objects[first.object].object;
+            rests = rests && object.coefficients().chain.soft_part.is_zero();
+            for (std::size_t i = 0; i < object.pins().size(); ++i) {
+                const Coordinates& to = object.pins()[i].target;
+                const Coordinates& from = object.pin_starts[i];
+                rests = rests && to.x == from.x && to.y == from.y && to.z == from.z;
+            }
+            for (std::size_t i = 0; i < scene_.attachments.size(); ++i) {
+                rests = rests && (!scene_.attachment_slots[i].used ||
+                                  !is_held_otherwise(scene_.attachments[i], first.object));
+            }
+            for (const std::uint64_t pair : scene_.object_pairs) {
+                const auto body = static_cast<std::uint32_t>(pair);
+                rests = rests && (pair >> 32 != first.object || is_part(body) ||
+                                  (!scene_.bodies[body].is_dynamic() && !scene_.bodies[body].is_moving()));
+            }
+        });
+        return rests;
+    }
+
+    bool is_held_otherwise(const Attachment& attachment, std::uint32_t object) const {
+        const AttachmentDescription& d = attachment.description;
+        if (d.kind == LKS_ATTACHMENT_TO_VERTEX) {
+            return d.object == object || d.other == object;
+        }
+        const Body& body = scene_.bodies[d.other];
+        return d.object == object && !is_part(d.other) &&
+               (!attachment.loads_rope || body.is_dynamic() || body.is_moving());
+    }
+
+    // Returns what velocities beside the holder's were multiplied by.
+    std::int64_t take_out_gain(const Body& holder) {
+        Int128 before = before_;
+        Int128 after = after_;
         for_each(Part::body, [&](std::uint32_t i) {
             const Body& body = scene_.bodies[i];
             const SymmetricMatrix& inertia = scene_.descriptions[i].properties.inertia;
@@ -106,12 +219,15 @@ private:
             after = after + twice_energy(body.position, body.orientation);
         });
         if (!is_much_more(after, before) || !is_pushed_from_within(holder)) {
-            return;
+            return one_factor;
         }
         for_each(Part::joint, [&](std::uint32_t i) { before = before + twice_drive_work(scene_.joints[i]); });
-        if (is_much_more(after, before)) {
-            slow_down(holder, root_of_ratio(before, after));
+        if (!is_much_more(after, before)) {
+            return one_factor;
         }
+        const std::int64_t factor = root_of_ratio(before, after);
+        slow_down(holder, factor);
+        return factor;
     }
 
     static bool is_much_more(const Int128& after, const Int128& before) {
@@ -123,7 +239,8 @@ private:
         bool within = !is_near_particles();
         for_each(Part::joint, [&](std::uint32_t i) {
             const Joint& joint = scene_.joints[i];
-            within = within && joint.in_held_tree && joint.constants.limits.softness == 0;
+            within = within && (range_.is_loaded ? joint.in_tree : joint.in_held_tree) &&
+                     joint.constants.limits.softness == 0;
         });
         for (const Part kind : {Part::contact, Part::shared_contact}) {
             for_each(kind, [&](std::uint32_t i) {
@@ -150,7 +267,8 @@ private:
     bool is_near_particles() const {
         const std::uint32_t own = name_of(scene_, range_);
         return std::any_of(scene_.object_pairs.begin(), scene_.object_pairs.end(), [&](std::uint64_t pair) {
-            return scene_.figures[static_cast<std::uint32_t>(pair)] == own;
+            return scene_.figures[static_cast<std::uint32_t>(pair)] == own &&
+                   !(range_.is_loaded && is_own(static_cast<std::uint32_t>(pair >> 32)));
         });
     }
 
@@ -183,9 +301,30 @@ private:
     RigidScene& scene_;
     const FigureRange& range_;
     const MotionRate& rate_;
+    // Of what it hangs on.
+    Int128 before_{0, 0};
+    Int128 after_{0, 0};
 };
 
 } // namespace
+
+void measure_predicted(lks_world& world, std::uint32_t object) {
+    RigidScene& scene = world.rigid;
+    const auto is_awake = [&scene](std::uint32_t body) { return scene.bodies[body].is_awake(); };
+    for (RopeLoad* load = scene.first_rope_load(object);
+         load != scene.rope_loads.end() && load->object == object; ++load) {
+        const std::uint32_t body = scene.attachments[load->attachment].description.other;
+        if (is_awake(body) && figure_range(scene, body).is_loaded) {
+            scene.first_rope_load(object)->predicted =
+                twice_energy(*world.objects[object].object, figure_range(scene, body).heaviest);
+            return;
+        }
+    }
+}
+
+void take_out_gain_on_ropes(lks_world& world, const FigureRange& figure, const MotionRate& rate) {
+    HeldFigure(world.rigid, figure, rate).take_out_gain_on_ropes(world);
+}
 
 void take_out_gain(RigidScene& scene, const FigureRange& figure, const MotionRate& rate) {
     HeldFigure(scene, figure, rate).take_out_gain();

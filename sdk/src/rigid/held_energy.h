@@ -18,11 +18,19 @@
 #include "rigid/body_motion.h"
 #include "rigid/rigid_scene.h"
 
+struct lks_world;
+
 namespace lks {
 
 // Once velocities are known, of a figure that is held. Where it has gained it is looked at what has pushed
 // it. Where that may have given it energy it is left alone: what moves otherwise than its holder, particles,
 // soft joints and those of no tree, several holders that move differently.
 void take_out_gain(RigidScene& scene, const FigureRange& figure, const MotionRate& rate);
+
+// The same of a figure that hangs on ropes which bear it (rigid/rope_loads.h), where these are held by what
+// does not move, do not stretch and bear nothing else: they and the figure gain nothing together.
+void take_out_gain_on_ropes(lks_world& world, const FigureRange& figure, const MotionRate& rate);
+// After the prediction: the energy of such a rope.
+void measure_predicted(lks_world& world, std::uint32_t object);
 
 } // namespace lks

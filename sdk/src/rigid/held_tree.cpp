@@ -154,9 +154,41 @@ public:
         return true;
     }
 
+    // Ropes that pulled in this substep hold their bodies' points on from moving away.
+    void find_taut() {
+        for (std::uint32_t i = range_.first_body; i < range_.body_end; ++i) {
+            const std::uint32_t index = scene_.tree_bodies[i];
+            const std::uint32_t load_index = scene_.articulated[index].rope_load;
+            if (load_index == no_rope_load) {
+                continue;
+            }
+            RopeLoad& load = scene_.rope_loads[load_index];
+            const Attachment& attachment = scene_.attachments[load.attachment];
+            load.taut = load.anchored && load.motion > 0 && fixed::dot(load.along, attachment.push) > 0;
+            load.lever = lever_in_units(scene_.bodies[index], attachment.description.point);
+        }
+    }
+
 private:
     std::int64_t greatest_point_push() const {
         return range_.is_uneven ? greatest_uneven_push : greatest_push;
+    }
+    static Vec3 direction_32(const RopeLoad& load) {
+        constexpr std::int64_t up = std::int64_t{1} << (tree_fraction_bits - direction_fraction_bits);
+        return {load.along.x * up, load.along.y * up, load.along.z * up};
+    }
+    static Wrench pull_of(const RopeLoad& load) {
+        return {direction_32(load), cross_32(load.lever, direction_32(load))};
+    }
+    // use(load, body)
+    template <typename Use>
+    void for_each_taut(const Use& use) {
+        for (std::uint32_t i = range_.first_body; i < range_.body_end; ++i) {
+            ArticulatedBody& body = scene_.articulated[scene_.tree_bodies[i]];
+            if (body.rope_load != no_rope_load && scene_.rope_loads[body.rope_load].taut) {
+                use(scene_.rope_loads[body.rope_load], body);
+            }
+        }
     }
 
     bool turns_far() {
@@ -216,6 +248,12 @@ private:
     void factor() {
         for_each_body(
             [](Body& body, ArticulatedBody& part) { part.inverse = own_inverse(body, part.share); });
+        for_each_taut([](RopeLoad& load, ArticulatedBody& body) {
+            const Wrench pull = pull_of(load);
+            respond(body.inverse, pull, load.column_shift, load.column_turn);
+            load.inverse = invert_pivot(along(pull, load.column_shift, load.column_turn));
+            take_out(body.inverse, load.column_shift, load.column_turn, load.inverse);
+        });
         for_each_held_back([this](const ArticulatedJoint& part, const Joint&, HeldJoint& held) {
             factor_joint(part, held);
             if (&part != &scene_.tree_joints[range_.first_joint]) {
@@ -312,11 +350,23 @@ private:
             part.turn = own_turn(body, part.share, part.torque);
             part.torque = {0, 0, 0};
         });
+        for_each_taut([](RopeLoad& load, ArticulatedBody& body) {
+            load.push = divide(minus(0, along(pull_of(load), body.shift, body.turn)), load.inverse);
+            body.shift = body.shift + multiply_32(load.push, load.column_shift);
+            body.turn = body.turn + multiply_32(load.push, load.column_turn);
+        });
         for_each_held_back([this](const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
             fold_errors(part, joint, held);
         });
         for_each_held(
             [this](const ArticulatedJoint& part, const Joint&, HeldJoint& held) { hand_down(part, held); });
+        for_each_taut([](RopeLoad& load, ArticulatedBody& body) {
+            const std::int64_t more =
+                plus(dot_32(load.column_shift, body.force), dot_32(load.column_turn, body.torque));
+            load.push =
+                std::clamp(minus(load.push, divide(more, load.inverse)), -greatest_push, greatest_push);
+            add_force(body, load.lever, multiply_32(load.push, direction_32(load)));
+        });
         for_each_body([](const Body& body, ArticulatedBody& part) {
             part.torque = part.torque + part.carried_torque;
             part.carried_torque = {0, 0, 0};
@@ -418,6 +468,12 @@ private:
             for_each_held([this](const ArticulatedJoint& part, Joint& joint, const HeldJoint& held) {
                 keep_pushes(part, joint, held);
             });
+            for_each_taut([this](const RopeLoad& load, const ArticulatedBody& body) {
+                Attachment& attachment = scene_.attachments[load.attachment];
+                const std::int64_t push =
+                    fixed::multiply_divide(load.push, body.share, std::int64_t{attachment.side.share} << 2);
+                add_push(attachment, fixed::scale(load.along, push));
+            });
         }
     }
 
@@ -468,12 +524,14 @@ void carry_torque(RigidScene& scene, const Joint& joint, const Vec3& push) {
 bool solve_held_tree(RigidScene& scene, const ArticulatedTree& tree) {
     stiffen_further(scene, tree);
     HeldTree held(scene, tree, true);
+    held.find_taut();
     return held.find_rows() && held.solve();
 }
 
 bool undo_held_tree(RigidScene& scene, const ArticulatedTree& tree) {
     constexpr int most_rounds = 3;
     HeldTree held(scene, tree, false);
+    held.find_taut();
     bool done = false;
     for (int round = 0; round < most_rounds && held.is_far_turned() && held.find_rows() && held.solve();
          ++round) {

@@ -12,6 +12,9 @@
 //     joint. Which limits push is found by exchanging those that would pull for those that would be exceeded
 //     (block principal pivoting; Júdice and Pires 1994), a few passes as a rule.
 //
+// Where a rope holds it (rigid/rope_loads.h) the point that it pulls at does not move away from it: a row
+// more, of the body by itself, that is eliminated before all joints.
+//
 // Errors of turns, and their pushes, count as lengths at the joint's reach (rigid/pair.h).
 #pragma once
 

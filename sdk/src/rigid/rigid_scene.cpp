@@ -20,7 +20,8 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       figure_masses(allocator), figures_changed(allocator), strained_figures(allocator),
       figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator), is_coupled(allocator),
       coupled(allocator), object_pairs(allocator), object_impulses(allocator), held(allocator),
-      loaded_bodies(allocator), loaded_joints(allocator), tree_kernels_(tree_kernels) {}
+      rope_loads(allocator), particle_loads(allocator), loaded_bodies(allocator), loaded_joints(allocator),
+      tree_kernels_(tree_kernels) {}
 
 // A bundle takes the same for any number of trees.
 std::size_t RigidScene::wide_room(std::size_t count) const {
@@ -77,6 +78,7 @@ bool RigidScene::reserve_attachments(std::size_t count) {
     attachment_room_ = std::max(attachment_room_, count);
     // Particles tied to particles are stepped here, too, with no body in the world.
     const bool done = attachment_slots.reserve(count) && attachments.reserve(count) && held.reserve(count) &&
+                      rope_loads.reserve(count) && particle_loads.reserve(count) &&
                       reserve_figures(body_room_, joint_room_, count) && reserve(body_room_, collider_room_);
     attachment_room_ = done ? attachment_room_ : before;
     return done;
@@ -109,6 +111,13 @@ void RigidScene::free_joint(std::uint32_t index) {
 void RigidScene::free_attachment(std::uint32_t index) {
     free_slot(attachment_slots[index]);
     attachments[index] = Attachment{};
+}
+
+RopeLoad* RigidScene::first_rope_load(std::uint32_t object) {
+    RopeLoad* const first =
+        std::lower_bound(rope_loads.begin(), rope_loads.end(), object,
+                         [](const RopeLoad& load, std::uint32_t index) { return load.object < index; });
+    return first != rope_loads.end() && first->object == object ? first : rope_loads.end();
 }
 
 void RigidScene::follow_joints() {

@@ -15,6 +15,7 @@
 #include "rigid/held_tree_parts.h"
 #include "rigid/joint.h"
 #include "rigid/overlaps.h"
+#include "rigid/rope_load.h"
 #include "rigid/substep_motion.h"
 #include "rigid/uneven_tree_parts.h"
 #include "solver/slot.h"
@@ -137,6 +138,9 @@ struct RigidScene {
     Array<std::uint64_t> object_pairs;
     Array<std::int64_t> object_impulses; // beside them: what particles pushed, World N·s, for events
     Array<HeldParticle> held;            // ascending
+    // Of ropes that bear loads (rigid/rope_loads.h), ascending, and room for what that makes of particles.
+    Array<RopeLoad> rope_loads;
+    Array<ParticleLoad> particle_loads;
     // Scratch of a load, by slot.
     Array<Loaded> loaded_bodies;
     Array<Loaded> loaded_joints;
@@ -157,6 +161,8 @@ struct RigidScene {
     void follow_joints();
     // By a joint whose bodies don't collide; a < b.
     bool are_jointed(std::uint32_t a, std::uint32_t b) const;
+    // Of an object; the end, where it has none.
+    RopeLoad* first_rope_load(std::uint32_t object);
     bool empty() const { return bodies.empty() && attachments.empty(); }
     // Whether a contact does anything in this substep, once its rows are made.
     bool acts(std::size_t contact) const { return contacts_act[contact] != 0; }

@@ -12,6 +12,7 @@
 #include "rigid/joint_limits.h"
 #include "rigid/joint_turns.h"
 #include "rigid/particle_contact.h"
+#include "rigid/rope_loads.h"
 #include "rigid/wide_trees.h"
 #include "solver/object_tick.h"
 #include "solver/pins.h"
@@ -52,7 +53,9 @@ void RigidSubstep::run(std::uint32_t substep) {
     for (std::uint32_t iteration = 0; iteration < world_.rate.iterations; ++iteration) {
         iterate(substep);
     }
-    relieve_strained();
+    if (relieve_strained()) {
+        collide_objects(substep);
+    }
     finish();
 }
 
@@ -199,6 +202,7 @@ void RigidSubstep::predict(std::uint32_t substep) {
     for_each_attachment(world_, [](Attachment& attachment, const AttachmentSides& sides) {
         lks::begin_substep(attachment, sides);
     });
+    for_each_loaded_rope(scene_, [this](std::uint32_t object) { measure_predicted(world_, object); });
 }
 
 void RigidSubstep::carry_pushes_on() {
@@ -342,7 +346,11 @@ void RigidSubstep::project_back(const FigureRange& figure, bool strained) {
 
 void RigidSubstep::iterate(std::uint32_t substep) {
     for (const std::uint32_t index : scene_.coupled) {
-        project_object(world_, coupled_object(world_, index), world_.scratch[0]);
+        if (bears_loads(scene_, index)) {
+            project_loaded_rope(world_, index);
+        } else {
+            project_object(world_, coupled_object(world_, index), world_.scratch[0]);
+        }
     }
     // Forward and back: a sweep in one direction only makes tall stacks sway.
     project_attachments();
@@ -373,6 +381,7 @@ void RigidSubstep::iterate(std::uint32_t substep) {
         solve_trees(bundle);
     });
     project_attachments();
+    project_loaded_ropes();
     collide_objects(substep);
 }
 
@@ -401,10 +410,17 @@ void RigidSubstep::mark_hard_impacts() {
     }
 }
 
-// Of those that are held: by more than an eighth of a degree.
+// By what hangs on it.
+bool RigidSubstep::is_strained_rope(std::uint32_t object) const {
+    return any_rope_load(scene_, object, [this](std::uint32_t body) {
+        return scene_.bodies[body].is_awake() && scene_.strained_figures[scene_.figures[body]] != 0;
+    });
+}
+
+// Of those that are held, or hang on ropes: by more than an eighth of a degree.
 void RigidSubstep::mark_exceeded_limits() {
     for (const FigureRange& figure : scene_.figure_ranges) {
-        if (figure.is_held) {
+        if (figure.is_held || figure.is_loaded) {
             for_each_joint(figure, [&](const Joint& joint, const Body& a, const Body& b) {
                 const std::int64_t turned = joint.in_held_tree ? turned_away(joint, a, b, true) : 0;
                 if (turned > far_turned || exceeded_limits(joint, a, b, true) > far_turned) {
@@ -436,9 +452,10 @@ bool RigidSubstep::are_strained(const Contact& shared) const {
 // mass only, and at 60 m/s it would be 8 cm in the wall before all of them have stopped. And limits know the
 // masses of their two bones: those of a hand that all of a figure hangs on would find too little in one
 // iteration, be exceeded, and in the end throw the figure about. Where that happens the figure, and nobody
-// else, has some iterations more.
-void RigidSubstep::relieve_strained() {
+// else, has some iterations more, with the ropes that it hangs on. True: these have moved.
+bool RigidSubstep::relieve_strained() {
     constexpr int most_rounds = 16;
+    bool roped = false;
     for (FigureRange& figure : scene_.figure_ranges) {
         figure.relieved = false;
     }
@@ -470,7 +487,18 @@ void RigidSubstep::relieve_strained() {
             project_back(figure, true);
             solve_strained_trees(figure);
         });
+        for_each_loaded_rope(scene_, [&](std::uint32_t object) {
+            if (is_strained_rope(object)) {
+                project_loaded_rope(world_, object);
+                roped = true;
+            }
+        });
     }
+    return roped;
+}
+
+void RigidSubstep::project_loaded_ropes() {
+    for_each_loaded_rope(scene_, [this](std::uint32_t object) { project_loaded_rope(world_, object); });
 }
 
 void RigidSubstep::project_attachments() {
@@ -549,6 +577,11 @@ void RigidSubstep::finish() {
             take_out_gain(scene_, figure, rate_);
         }
     });
+    for (const FigureRange& figure : scene_.figure_ranges) {
+        if (figure.is_loaded && may_gain(figure)) {
+            take_out_gain_on_ropes(world_, figure, rate_);
+        }
+    }
     if (world_.event_log.wants_contacts()) {
         in_contact_blocks([this](std::uint32_t first, std::uint32_t end) {
             for (std::uint32_t i = first; i < end; ++i) {
@@ -579,6 +612,7 @@ void RigidSubstep::finish() {
         undo(i);
     }
     in_bundles([this](const FigureBundle& bundle) { in_trees(bundle, undo_bundle, undo_articulation); });
+    for_each_loaded_rope(scene_, [this](std::uint32_t object) { undo_rope_loads(world_, object); });
     for_each_attachment(world_,
                         [](Attachment& attachment, const AttachmentSides&) { finish_substep(attachment); });
 }

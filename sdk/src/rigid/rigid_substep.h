@@ -69,8 +69,10 @@ private:
     void restore_speeds();
     bool is_strained(const FigureRange& figure) const;
     bool are_strained(const Contact& shared) const;
-    void relieve_strained();
+    bool relieve_strained();
+    bool is_strained_rope(std::uint32_t object) const;
     void project_attachments();
+    void project_loaded_ropes();
     void collide_objects(std::uint32_t substep);
     void finish();
 

@@ -10,6 +10,7 @@
 #include "rigid/figure_overlaps.h"
 #include "rigid/figures.h"
 #include "rigid/rigid_substep.h"
+#include "rigid/rope_loads.h"
 #include "rigid/sleep.h"
 #include "rigid/wide_trees.h"
 #include "solver/object_tick.h"
@@ -117,6 +118,7 @@ private:
         for_each_attachment(world_, [this](Attachment& attachment, const AttachmentSides& sides) {
             begin_tick(attachment, sides, world_.rate);
         });
+        find_rope_loads(world_);
     }
 
     void run_substeps() {
@@ -126,6 +128,7 @@ private:
         for (std::uint32_t substep = 1; substep <= world_.rate.substeps; ++substep) {
             rigid_substep.run(substep);
         }
+        forget_rope_loads(world_);
         part_figures(scene_, world_.rate);
     }
 

@@ -53,7 +53,7 @@ const ArticulatedTree* only_tree(const RigidScene& scene, const FigureRange& fig
 
 bool fits_lanes(const RigidScene& scene, const ArticulatedTree& tree) {
     // Where something doesn't move there are fewer bodies.
-    bool fits = !tree.is_uneven && body_count(tree) <= greatest_tree &&
+    bool fits = !tree.is_uneven && !tree.is_loaded && body_count(tree) <= greatest_tree &&
                 body_count(tree) == tree.joint_end - tree.first_joint + 1;
     for (std::uint32_t i = 0; i < body_count(tree) && fits; ++i) {
         fits = fits_lanes(body_of(scene, tree, i));

@@ -36,7 +36,7 @@ bool ChainCoefficients::build(const lks_asset& asset, const Scaled& inverse_stif
         return false;
     }
     Scaled lightest{};
-    Scaled mass{};
+    mass = {};
     for (std::uint32_t i = 0; i <= count; ++i) {
         lightest = lightest < asset.inverse_masses[i] ? asset.inverse_masses[i] : lightest;
         mass = mass + asset.masses[i];
@@ -65,15 +65,16 @@ bool ChainCoefficients::build(const lks_asset& asset, const Scaled& inverse_stif
                                 least_stiffness_bits, greatest_stiffness_bits);
     std::fill(weight_shifts.begin(), weight_shifts.end(), static_cast<std::uint32_t>(greatest_weight_shift));
     std::fill(rest_lengths.begin() + count, rest_lengths.end(), rest_behind_the_end);
+    const PinnedParticles none;
     for (std::uint32_t i = 0; i <= count; ++i) {
         const std::uint32_t particle = asset.vertex_to_particle[i];
         particles[i] = particle;
         mass_shares[i] = (asset.masses[particle] / mass).to_i64_fixed(63);
-        update_weight(asset, i, false);
+        update_weight(asset, none, i);
         pinned_within += i > 0 && i < count && weights[i] == 0 ? 1u : 0u; // too heavy to move
     }
     for (std::uint32_t i = 0; i < count; ++i) {
-        update_segment(asset, i);
+        update_segment(asset, none, i);
     }
     return true;
 }
@@ -87,6 +88,7 @@ bool ChainCoefficients::copy(const ChainCoefficients& other) {
         !far_shares.copy(other.far_shares)) {
         return false;
     }
+    mass = other.mass;
     reference = other.reference;
     soft_part = other.soft_part;
     softness = other.softness;
@@ -97,40 +99,65 @@ bool ChainCoefficients::copy(const ChainCoefficients& other) {
     return true;
 }
 
-void ChainCoefficients::update_particle(const lks_asset& asset, std::uint32_t particle, bool pinned,
-                                        std::size_t all_pinned) {
+void ChainCoefficients::update_particle(const lks_asset& asset, const PinnedParticles& pinned,
+                                        std::uint32_t particle) {
     if (empty()) {
         return;
     }
     const std::uint32_t index = asset.particle_to_vertex[particle];
     const bool within = index > 0 && index < count();
     pinned_within -= within && weights[index] == 0 ? 1u : 0u;
-    update_weight(asset, index, pinned);
+    update_weight(asset, pinned, index);
     pinned_within += within && weights[index] == 0 ? 1u : 0u;
     if (index > 0) {
-        update_segment(asset, index - 1);
+        update_segment(asset, pinned, index - 1);
     }
     if (index < count()) {
-        update_segment(asset, index);
+        update_segment(asset, pinned, index);
     }
-    pinned_count = all_pinned;
+    pinned_count = pinned.immovable_count();
 }
 
-void ChainCoefficients::update_weight(const lks_asset& asset, std::uint32_t index, bool pinned) {
-    const Scaled share = asset.inverse_masses[particles[index]] / reference;
+void ChainCoefficients::share_mass(const lks_asset& asset, const PinnedParticles& pinned,
+                                   const ChainCoefficients& own) {
+    if (empty() || pinned_count != 0) {
+        return;
+    }
+    const Scaled one = Scaled::from_u64(1);
+    Scaled all = mass;
+    for (std::size_t i = 0; i < pinned.load_count; ++i) {
+        const ParticleLoad& load = pinned.loads[i];
+        all = all + subtract_or_zero(one / load.inverse_mass, asset.masses[load.particle]);
+    }
+    const std::int64_t left = (mass / all).to_i64_fixed(63);
+    for (std::uint32_t i = 0; i <= count(); ++i) {
+        mass_shares[i] =
+            pinned.load_count == 0 ? own.mass_shares[i] : fixed::multiply_shift(own.mass_shares[i], left, 63);
+    }
+    for (std::size_t i = 0; i < pinned.load_count; ++i) {
+        const ParticleLoad& load = pinned.loads[i];
+        mass_shares[asset.particle_to_vertex[load.particle]] =
+            (one / load.inverse_mass / all).to_i64_fixed(63);
+    }
+}
+
+void ChainCoefficients::update_weight(const lks_asset& asset, const PinnedParticles& pinned,
+                                      std::uint32_t index) {
+    const Scaled share = pinned.inverse_mass(asset, particles[index]) / reference;
     // At most a half, unless rounding has made it more.
-    const int shift = std::clamp(-share.log2_floor() - 1, 0, greatest_weight_shift);
+    const int shift = share.is_zero() ? 0 : std::clamp(-share.log2_floor() - 1, 0, greatest_weight_shift);
     const std::uint64_t weight = std::min<std::uint64_t>(share.to_fixed(chain_weight_bits + shift),
                                                          (std::uint64_t{1} << chain_weight_bits) - 1);
-    const bool moves = !pinned && weight != 0;
+    const bool moves = weight != 0;
     weights[index] = moves ? static_cast<std::uint32_t>(weight) : 0;
     weight_shifts[index] = static_cast<std::uint32_t>(moves ? shift : greatest_weight_shift);
     weight_shares[index] = std::uint64_t{weights[index]} << 32 >> weight_shifts[index];
 }
 
-void ChainCoefficients::update_segment(const lks_asset& asset, std::uint32_t index) {
+void ChainCoefficients::update_segment(const lks_asset& asset, const PinnedParticles& pinned,
+                                       std::uint32_t index) {
     const auto inverse_mass = [&](std::uint32_t i) {
-        return weights[i] == 0 ? Scaled{} : asset.inverse_masses[particles[i]];
+        return weights[i] == 0 ? Scaled{} : pinned.inverse_mass(asset, particles[i]);
     };
     const Scaled near = inverse_mass(index);
     const Scaled far = inverse_mass(index + 1);

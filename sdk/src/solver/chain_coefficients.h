@@ -9,6 +9,7 @@
 #include "asset/asset.h"
 #include "fixed/formats.h"
 #include "kernels/chain_task.h"
+#include "solver/particle_masses.h"
 #include "solver/step_rate.h"
 
 namespace lks {
@@ -25,8 +26,10 @@ struct ChainCoefficients {
     // Nothing pinned; `inverse_stiffness` is α̃/(1+γ). False: no memory.
     [[nodiscard]] bool build(const lks_asset& asset, const fixed::Scaled& inverse_stiffness);
     [[nodiscard]] bool copy(const ChainCoefficients& other);
-    // After it was pinned or unpinned; `all_pinned` is how many are now.
-    void update_particle(const lks_asset& asset, std::uint32_t particle, bool pinned, std::size_t all_pinned);
+    // After it was pinned, unpinned or loaded.
+    void update_particle(const lks_asset& asset, const PinnedParticles& pinned, std::uint32_t particle);
+    // What each has of the mass of all with the loads, which nothing pinned knows; `own` is that without any.
+    void share_mass(const lks_asset& asset, const PinnedParticles& pinned, const ChainCoefficients& own);
 
     bool empty() const { return constraints.empty(); }
     std::uint32_t count() const { return static_cast<std::uint32_t>(constraints.size()); }
@@ -48,6 +51,7 @@ struct ChainCoefficients {
     Array<std::uint32_t> near_shares; // the ends' inverse masses as shares of the lighter one's, Unit
     Array<std::uint32_t> far_shares;
 
+    fixed::Scaled mass{};                 // of the rope by itself, kg
     fixed::Scaled reference{};            // R, 1/kg
     fixed::Scaled soft_part{};            // α̃/(1+γ), 1/kg
     std::uint64_t softness = 0;           // the same as a share of R
@@ -57,8 +61,8 @@ struct ChainCoefficients {
     std::uint32_t pinned_within = 0; // those that are no end
 
 private:
-    void update_weight(const lks_asset& asset, std::uint32_t index, bool pinned);
-    void update_segment(const lks_asset& asset, std::uint32_t index);
+    void update_weight(const lks_asset& asset, const PinnedParticles& pinned, std::uint32_t index);
+    void update_segment(const lks_asset& asset, const PinnedParticles& pinned, std::uint32_t index);
 };
 
 } // namespace lks

@@ -32,10 +32,6 @@ std::uint32_t to_share(const Scaled& value, int extra_bits = 0) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(raw, unit_one - 1));
 }
 
-Scaled inverse_mass(const lks_asset& asset, const PinnedParticles& pinned, std::uint32_t particle) {
-    return pinned.contains(particle) ? Scaled{} : asset.inverse_masses[particle];
-}
-
 void include(ConstraintRange& range, std::uint32_t constraint) {
     if (range.first == range.last) {
         range = {constraint, constraint + 1};
@@ -68,10 +64,6 @@ DistanceParameters distance_parameters(const Batch& batch, std::int32_t share_ex
 }
 
 } // namespace
-
-bool PinnedParticles::contains(std::uint32_t particle) const {
-    return count != 0 && std::binary_search(particles, particles + count, particle);
-}
 
 bool Coefficients::build(const lks_asset& asset, const StepRate& rate) {
     const std::size_t count = asset.constraints.size();
@@ -133,7 +125,7 @@ bool Coefficients::copy(const Coefficients& other) {
 
 void Coefficients::update_particle(const lks_asset& asset, const StepRate& rate,
                                    const PinnedParticles& pinned, std::uint32_t particle) {
-    chain.update_particle(asset, particle, pinned.contains(particle), pinned.count);
+    chain.update_particle(asset, pinned, particle);
     const std::uint32_t first = asset.incident_offsets[particle];
     const std::uint32_t last = asset.incident_offsets[particle + 1];
     std::uint32_t batch = 0;
@@ -151,8 +143,8 @@ void Coefficients::update_constraint(const lks_asset& asset, const StepRate& rat
                                      std::uint32_t batch) {
     const Constraint& ends = asset.constraints[constraint];
     const std::uint32_t family = asset.batches[batch].family;
-    const Scaled w_a = inverse_mass(asset, pinned, ends.a);
-    const Scaled w_b = inverse_mass(asset, pinned, ends.b);
+    const Scaled w_a = pinned.inverse_mass(asset, ends.a);
+    const Scaled w_b = pinned.inverse_mass(asset, ends.b);
     const FamilyTerms terms = family_terms(asset.families[family], rate);
     const Scaled effective = w_a + w_b + terms.softness;
     BatchCoefficients& of_batch = batches[batch];
@@ -180,7 +172,7 @@ fixed::Scaled multiplier_scale(const Coefficients& coefficients, const lks_asset
     if (!coefficients.chain.empty() && family == LKS_CONSTRAINT_STRETCH) {
         return coefficients.chain.reference.times_power_of_two(-coefficients.chain.multiplier_exponent);
     }
-    return inverse_mass(asset, pinned, ends.a) + inverse_mass(asset, pinned, ends.b) +
+    return pinned.inverse_mass(asset, ends.a) + pinned.inverse_mass(asset, ends.b) +
            family_terms(asset.families[family], rate).softness;
 }
 

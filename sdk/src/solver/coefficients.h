@@ -15,6 +15,7 @@
 #include "asset/asset.h"
 #include "kernels/distance_task.h"
 #include "solver/chain_coefficients.h"
+#include "solver/particle_masses.h"
 #include "solver/step_rate.h"
 
 namespace lks {
@@ -33,14 +34,6 @@ struct BatchCoefficients {
     std::uint32_t unequal_count = 0; // constraints whose ends don't
 };
 
-// Which particles have infinite mass although the asset gives them one: ascending indices.
-struct PinnedParticles {
-    const std::uint32_t* particles = nullptr;
-    std::size_t count = 0;
-
-    bool contains(std::uint32_t particle) const;
-};
-
 class Coefficients {
 public:
     explicit Coefficients(const lks_allocator& allocator)
@@ -51,7 +44,7 @@ public:
     [[nodiscard]] bool build(const lks_asset& asset, const StepRate& rate);
     // Becomes a copy of `other`. False: no memory, unchanged.
     [[nodiscard]] bool copy(const Coefficients& other);
-    // Recomputes what depends on `particle`'s mass, after it was pinned or unpinned.
+    // Recomputes what depends on `particle`'s mass, after it was pinned, unpinned or loaded.
     void update_particle(const lks_asset& asset, const StepRate& rate, const PinnedParticles& pinned,
                          std::uint32_t particle);
 

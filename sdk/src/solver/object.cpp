@@ -80,13 +80,31 @@ bool Object::reserve_pins(std::size_t pin_count) {
         (record_forces && !recorded_pins.reserve(capacity))) {
         return false;
     }
-    if (!owns_coefficients_) {
-        if (!own_.copy(*shared_)) {
-            return false;
-        }
-        owns_coefficients_ = true;
+    return reserve_coefficients();
+}
+
+bool Object::reserve_coefficients() {
+    owns_coefficients_ = owns_coefficients_ || own_.copy(*shared_);
+    return owns_coefficients_;
+}
+
+void Object::bear(const StepRate& rate, const ParticleLoad* loads, std::size_t count) {
+    PinnedParticles masses = pinned();
+    masses.loads = loads;
+    masses.load_count = count;
+    follow_loads(rate, loads, count, masses);
+}
+
+void Object::bear_no_more(const StepRate& rate, const ParticleLoad* loads, std::size_t count) {
+    follow_loads(rate, loads, count, pinned());
+}
+
+void Object::follow_loads(const StepRate& rate, const ParticleLoad* loads, std::size_t count,
+                          const PinnedParticles& masses) {
+    for (std::size_t i = 0; i < count; ++i) {
+        own_.update_particle(*asset_, rate, masses, loads[i].particle);
     }
-    return true;
+    own_.chain.share_mass(*asset_, masses, shared_->chain);
 }
 
 void Object::add_pin(const StepRate& rate, std::uint32_t particle, const Coordinates& target) {

@@ -92,6 +92,11 @@ public:
     const Array<Pin>& pins() const { return pins_; }
     // Memory for `pin_count` pins and for coefficients of its own. False: none left, nothing changed.
     [[nodiscard]] bool reserve_pins(std::size_t pin_count);
+    // Memory for coefficients of its own. False: none left, nothing changed.
+    [[nodiscard]] bool reserve_coefficients();
+    // Its particles bear these, or other, loads from now on, or none any more: within the reserved memory.
+    void bear(const StepRate& rate, const ParticleLoad* loads, std::size_t count);
+    void bear_no_more(const StepRate& rate, const ParticleLoad* loads, std::size_t count);
     // Within the reserved memory.
     void add_pin(const StepRate& rate, std::uint32_t particle, const Coordinates& target);
     void remove_pin(const StepRate& rate, std::uint32_t particle);
@@ -146,6 +151,8 @@ public:
     Array<Coordinates> pin_starts;
 
 private:
+    void follow_loads(const StepRate& rate, const ParticleLoad* loads, std::size_t count,
+                      const PinnedParticles& masses);
     // After pins_ was replaced: brings the list of pinned particles and the coefficients up to date.
     void follow_pins(const StepRate& rate);
 

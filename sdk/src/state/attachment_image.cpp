@@ -2,6 +2,7 @@
 
 #include "api/attachment_checks.h"
 #include "rigid/coupling.h"
+#include "rigid/rope_loads.h"
 #include "state/field_io.h"
 #include "state/image.h"
 #include "state/rigid_fields.h"
@@ -69,6 +70,23 @@ bool check_attachments(ByteReader& in, std::uint32_t count, const lks_world& wor
         }
     }
     return in.complete();
+}
+
+bool reserve_for_attachments(ByteReader& in, std::uint32_t count, const lks_world& world) {
+    Reading reading(in);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        static_cast<void>(in.u32()); // generation
+        if (in.u32() == 0) {
+            continue;
+        }
+        Attachment attachment{};
+        attachment_fields(reading, attachment);
+        Object& object = *world.load_staging[attachment.description.object];
+        if (may_load_rope(attachment.description, object) && !object.reserve_coefficients()) {
+            return false;
+        }
+    }
+    return true;
 }
 
 void read_attachments(ByteReader& in, std::uint32_t count, lks_world& world) {

@@ -191,12 +191,16 @@ public:
             return corrupt(world_, Sentence() << "A value of " << what << " " << index
                                               << " in the image is out of range.");
         }
+        ByteReader attachments = in;
         if (!check_attachments(in, header_.attachment_slots, world_, index)) {
             return corrupt(world_, Sentence() << "A value of attachment " << index
                                               << " in the image is out of range.");
         }
         if (!in.complete() || in.left() != 0) {
             return wrong_size();
+        }
+        if (!reserve_for_attachments(attachments, header_.attachment_slots, world_)) {
+            return world_.fail_out_of_memory("an image's attachments");
         }
         return LKS_OK;
     }
