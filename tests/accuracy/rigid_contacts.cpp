@@ -62,7 +62,7 @@ TEST_CASE("a box that tumbles until it lies is within 6e-5 m after ten seconds")
 }
 
 TEST_CASE(
-    "a capsule that falls on a slope and rolls down is within 2e-6 m after a second, 4e-4 m after ten") {
+    "a capsule that falls on a slope and rolls down is within 3e-6 m after a second, 4e-4 m after ten") {
     for (const int substeps : {8, 20}) {
         RigidScene scene(with_substeps(substeps));
         scene.add_ground(0.5, 0.5, false, about(0, 0, 1, -20));
@@ -71,7 +71,7 @@ TEST_CASE(
         def.transform.rotation = about(1, 2, 3, 40);
         def.angular_velocity = fixed(0.5, 1, -1);
         scene.add(capsule_shape(0.1, 0.2), def);
-        check_run("capsule on a slope" + substeps_name(substeps), scene, {2e-6, 4e-5, 10}, {4e-4, 1e-3, 500});
+        check_run("capsule on a slope" + substeps_name(substeps), scene, {3e-6, 4e-5, 10}, {4e-4, 2e-3, 500});
     }
 }
 

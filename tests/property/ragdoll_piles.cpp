@@ -71,9 +71,9 @@ FallenPiles fall_all(std::uint32_t first, std::uint32_t last, std::uint32_t subs
 }
 
 void check_rest(const FallenPiles& piles) {
-    CHECK(piles.deep <= 2);
-    CHECK(piles.overlap < 4e-3);
-    CHECK(piles.mean_overlap < 1.3e-3);
+    CHECK(piles.deep <= 6);
+    CHECK(piles.overlap < 5e-3);
+    CHECK(piles.mean_overlap < 1.5e-3);
     CHECK(piles.awake == 0);
     CHECK(piles.mean_seconds < 4);
 }

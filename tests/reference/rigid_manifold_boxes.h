@@ -54,9 +54,13 @@ std::vector<FacePoint<Scalar>> four_of(const std::vector<FacePoint<Scalar>>& pol
     // In micrometres, or rather 2^-20 m, as the SDK has them: the corners of an edge that is parallel to the
     // line are equally far from it.
     const auto whole = [](Scalar length) { return std::floor(length * Scalar(0x1p20)); };
-    // Of those that are next to as deep the first.
+    // Of those that are next to as deep the furthest out, in units of 2^-10 m.
     const Scalar deepest = best([](const Point& p) { return p.depth; }).depth;
-    const Point first = best([&](const Point& p) { return std::min(p.depth, deepest - Scalar(1e-4)); });
+    const Point first = best([&](const Point& p) {
+        const Scalar u = std::floor(p.u * Scalar(0x1p10));
+        const Scalar v = std::floor(p.v * Scalar(0x1p10));
+        return p.depth < deepest - Scalar(1e-4) ? Scalar(-1) : u * u + v * v;
+    });
     const Point second = best([&](const Point& p) {
         const Scalar u = whole(p.u - first.u);
         const Scalar v = whole(p.v - first.v);

@@ -69,9 +69,16 @@ std::int64_t squared_distance(const Corner& a, const Corner& b) {
     return u * u + v * v;
 }
 
+// From the middle of the face, in units of 2^-10 m: of corners that are a hair further out than others the
+// first is as far.
+std::int64_t squared_distance_out(const Corner& p) {
+    constexpr int down = world_fraction_bits - 10;
+    return (p.u >> down) * (p.u >> down) + (p.v >> down) * (p.v >> down);
+}
+
 // Four that span as much as all: the deepest, the one furthest from it, and the furthest from their line on
-// either side. Of those that are next to as deep the first, so that boxes at rest keep their four from tick
-// to tick: what others have pushed would be forgotten.
+// either side. Of those that are next to as deep the furthest out, so that boxes at rest keep their four from
+// tick to tick: what others have pushed would be forgotten.
 void reduce(Polygon& polygon) {
     if (polygon.count <= greatest_point_count) {
         return;
@@ -85,7 +92,8 @@ void reduce(Polygon& polygon) {
         return found;
     };
     const std::int64_t deepest = c[best([](const Corner& p) { return p.depth; })].depth;
-    const Corner first = c[best([&](const Corner& p) { return std::min(p.depth, deepest - tolerance); })];
+    const Corner first = c[best(
+        [&](const Corner& p) { return p.depth < deepest - tolerance ? -1 : squared_distance_out(p); })];
     const Corner second = c[best([&](const Corner& p) { return squared_distance(first, p); })];
     const Corner third = c[best([&](const Corner& p) { return area(first, second, p); })];
     const Corner fourth = c[best([&](const Corner& p) { return -area(first, second, p); })];
