@@ -197,22 +197,22 @@ TEST_CASE("a swing limit may be an ellipse, with hardly any way along one of its
         bool towards_x;
         double along_x, along_z;
     };
-    for (const auto& [towards_x, along_x, along_z] :
+    for (const Case& limits :
          {Case{true, 50, 20}, Case{false, 50, 20}, Case{true, 45, 0}, Case{false, 0, 45}}) {
-        CAPTURE(towards_x);
+        CAPTURE(limits.towards_x);
         World world(world_def(60, 8));
         const lks_body_id anchor = add_anchor(world, {});
         const lks_body_id limb = add_body(world, capsule_shape(0.05, 0.2), fixed(0, 0.25, 0));
-        REQUIRE(lks_world_set_gravity(world, towards_x ? fixed(5, -3, 0) : fixed(0, -3, 5)) == LKS_OK);
+        REQUIRE(lks_world_set_gravity(world, limits.towards_x ? fixed(5, -3, 0) : fixed(0, -3, 5)) == LKS_OK);
         lks_joint_def joint = lks_default_joint_def();
         joint.frame_b.position = fixed(0, -0.25, 0);
-        joint.swing_limit = fixed(along_x);
-        joint.swing_limit_z = fixed(along_z);
+        joint.swing_limit = fixed(limits.along_x);
+        joint.swing_limit_z = fixed(limits.along_z);
         const lks_joint_id id = add_joint(world, joint, anchor, limb);
         world.step(300);
         lks_fixed swing = 0;
         REQUIRE(lks_joint_angles(world, id, &swing, nullptr) == LKS_OK);
-        CHECK(std::abs(metres(swing) - (towards_x ? along_x : along_z)) < 0.5);
+        CHECK(std::abs(metres(swing) - (limits.towards_x ? limits.along_x : limits.along_z)) < 0.5);
     }
 }
 
