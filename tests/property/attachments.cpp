@@ -64,6 +64,16 @@ Vector momentum_of(const World& world, lks_object_id object, double mass) {
     return sum;
 }
 
+// A metre of ten segments, solved at once.
+Chain light_rope(double particle_mass) {
+    Chain chain;
+    chain.segments = 10;
+    chain.length = 1;
+    chain.particle_mass = particle_mass;
+    chain.solver = LKS_ROPE_DIRECT;
+    return chain;
+}
+
 } // namespace
 
 TEST_CASE("a ball hangs on a rope, which carries its weight") {
@@ -490,12 +500,7 @@ TEST_CASE("a heavy body on a light rope stays on it, and swings without gaining"
     for (const double mass : {5.0, 80.0}) {
         for (const std::uint32_t substeps : {1u, 2u, 4u, 8u}) {
             World world(world_def(60, substeps));
-            Chain chain;
-            chain.segments = 10;
-            chain.length = 1;
-            chain.particle_mass = 0.02;
-            chain.solver = LKS_ROPE_DIRECT;
-            const Asset rope = chain.build();
+            const Asset rope = light_rope(0.02).build();
             const lks_object_id object = world.add(rope, at(0, 0, 0));
             world.pin(object, 0);
             lks_body_def def = lks_default_body_def();
@@ -526,12 +531,7 @@ TEST_CASE("two heavy bodies that a light rope ties keep their momentum") {
     for (const std::uint32_t substeps : {1u, 4u, 10u}) {
         World world(world_def(60, substeps));
         REQUIRE(lks_world_set_gravity(world, {0, 0, 0}) == LKS_OK);
-        Chain chain;
-        chain.segments = 10;
-        chain.length = 1;
-        chain.particle_mass = 0.01;
-        chain.solver = LKS_ROPE_DIRECT;
-        const Asset rope = chain.build();
+        const Asset rope = light_rope(0.01).build();
         const lks_object_id object = world.add(rope, at(0, 0, 0));
         lks_body_def def = lks_default_body_def();
         def.filter.mask = 0;
@@ -568,12 +568,8 @@ TEST_CASE("a rope bears a heavy body beside a figure of too uneven masses") {
     for (const double mass : {300.0, 5000.0}) {
         for (const std::uint32_t substeps : {1u, 4u}) {
             World world(world_def(60, substeps));
-            Chain chain;
-            chain.segments = 10;
-            chain.length = 1;
-            chain.particle_mass = 0.02;
+            Chain chain = light_rope(0.02);
             chain.direction = {0, -1, 0};
-            chain.solver = LKS_ROPE_DIRECT;
             const Asset rope = chain.build();
             const lks_object_id object = world.add(rope, at(0, 0, 0));
             world.pin(object, 0);

@@ -123,13 +123,14 @@ inline BodyState state_of(const World& world, lks_body_id body) {
     return {metres(transform.position), metres(velocity), metres(spin), transform.rotation};
 }
 
+inline Vector cross(const Vector& a, const Vector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 // World axes from a body's.
 inline Vector rotate(const lks_rotation& q, const Vector& v) {
     const Vector u = Vector{double(q.x), double(q.y), double(q.z)} * 0x1p-30;
     const double w = q.w * 0x1p-30;
-    const auto cross = [](const Vector& a, const Vector& b) {
-        return Vector{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-    };
     const Vector t = cross(u, v) * 2;
     return v + t * w + cross(u, t);
 }

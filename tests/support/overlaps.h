@@ -62,10 +62,6 @@ inline double capsule_gap(const Solid& capsule, const Solid& other) {
     return at((low + high) / 2) - capsule.radius;
 }
 
-inline Vector cross_product(const Vector& a, const Vector& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 // By the axes that may separate two boxes, edges upon edges among them.
 inline double box_gap(const Solid& a, const Solid& b) {
     const auto width = [](const Solid& box, const Vector& n) {
@@ -84,7 +80,7 @@ inline double box_gap(const Solid& a, const Solid& b) {
         look(a.axes[i]);
         look(b.axes[i]);
         for (const Vector& axis : b.axes) {
-            look(cross_product(a.axes[i], axis));
+            look(cross(a.axes[i], axis));
         }
     }
     return gap;

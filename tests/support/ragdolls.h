@@ -85,7 +85,7 @@ public:
         }
         double deepest = 0;
         for (std::size_t i = 0; i < solids.size(); ++i) {
-            deepest = std::max(deepest, overlap_with_colliders(i, solids[i]));
+            deepest = std::max(deepest, overlap_with_colliders(solids[i]));
             for (std::size_t j = 0; j < i; ++j) {
                 const double apart = (solids[i].centre - solids[j].centre).length();
                 if (apart < solids[i].reach() + solids[j].reach() && !are_neighbours(i, j)) {
@@ -104,25 +104,23 @@ public:
 
 private:
     // Of balls along capsules' axes and of boxes' corners: what stands about has faces.
-    double overlap_with_colliders(std::size_t body, const Solid& solid) const {
+    double overlap_with_colliders(const Solid& solid) const {
         double deepest = 0;
         for (int i = 0; i < 8; ++i) {
             const Vector corner = solid.axes[0] * (i & 1 ? solid.half.x : -solid.half.x) +
                                   solid.axes[1] * (i & 2 ? solid.half.y : -solid.half.y) +
                                   solid.axes[2] * (i & 4 ? solid.half.z : -solid.half.z);
             const Vector on_axis = solid.axes[1] * (solid.half_length * (2 * i / 7.0 - 1));
-            deepest =
-                std::max(deepest, solid.radius -
-                                      nearest_collider(body, solid.centre + (solid.box ? corner : on_axis)));
+            deepest = std::max(deepest, solid.radius -
+                                            nearest_collider(solid.centre + (solid.box ? corner : on_axis)));
         }
         return deepest;
     }
 
-    // Metres from a point of a body.
-    double nearest_collider(std::size_t body, const Vector& point) const {
+    // Metres from a point.
+    double nearest_collider(const Vector& point) const {
         lks_query query = lks_default_query();
         query.kinds = LKS_HIT_BIT(LKS_HIT_COLLIDER);
-        query.ignored = bodies_[body];
         query.radius = fixed(0.3);
         lks_hit hits[16];
         std::uint32_t count = 0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
-#include "rigid/articulation_algebra.h"
+#include "rigid/articulation_joint.h"
 #include "rigid/articulation_walk.h"
 #include "rigid/body_motion.h"
 #include "rigid/held_tree.h"
@@ -48,45 +48,16 @@ SymmetricInverse invert(const std::int64_t (&d)[6]) {
 void fold_in(ArticulatedInverse& w, const ArticulatedJoint& joint) {
     Vec3 rows[6];
     Vec3 solved[6];
-    for (int i = 0; i < 3; ++i) {
-        rows[i] = {component(joint.column_shift[0], i), component(joint.column_shift[1], i),
-                   component(joint.column_shift[2], i)};
-        rows[3 + i] = {component(joint.column_turn[0], i), component(joint.column_turn[1], i),
-                       component(joint.column_turn[2], i)};
-    }
+    rows_of(joint.column_shift, joint.column_turn, rows);
     for (int i = 0; i < 6; ++i) {
         solved[i] = symmetric(joint.inverse.entries, rows[i]);
     }
-    int entry = 0;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = i; j < 3; ++j) {
-            w.shift[entry] = minus(w.shift[entry], dot_32(solved[i], rows[j]));
-            w.turn[entry] = minus(w.turn[entry], dot_32(solved[3 + i], rows[3 + j]));
-            ++entry;
-        }
-        for (int j = 0; j < 3; ++j) {
-            w.mixed[3 * i + j] = minus(w.mixed[3 * i + j], dot_32(solved[i], rows[3 + j]));
-        }
-    }
+    take_out_rows(w, solved, rows, dot_32);
 }
 
 void factor_joint(RigidScene& scene, ArticulatedJoint& part) {
-    const Joint& joint = scene.joints[part.joint];
-    ArticulatedBody& parent = scene.articulated[part.parent];
     std::int64_t d[6] = {};
-    part.pair_share = parent.share;
-    if (part.child_moves) {
-        const ArticulatedBody& child = scene.articulated[part.child];
-        part.pair_share = std::max(part.pair_share, child.share);
-        part.child_lever = lever_in_units(scene.bodies[part.child], point_of(joint, part.child_is_a));
-        Vec3 shift[3];
-        Vec3 turn[3];
-        push_columns(child.inverse, part.child_lever, shift, turn);
-        add_point_motion(part.child_lever, shift, turn, d);
-    }
-    part.parent_lever = lever_in_units(scene.bodies[part.parent], point_of(joint, !part.child_is_a));
-    push_columns(parent.inverse, part.parent_lever, part.column_shift, part.column_turn);
-    add_point_motion(part.parent_lever, part.column_shift, part.column_turn, d);
+    place_joint(scene, part, part.column_shift, part.column_turn, d);
     part.inverse = invert(d);
 }
 
@@ -316,11 +287,7 @@ private:
             return;
         }
         ArticulatedBody& parent = scene_.articulated[part.parent];
-        Vec3 left = apart - point_motion(parent, part.parent_lever);
-        if (part.child_moves) {
-            left = left + point_motion(scene_.articulated[part.child], part.child_lever);
-        }
-        part.push = -symmetric(part.inverse.entries, left);
+        part.push = -symmetric(part.inverse.entries, left_apart(scene_, part, apart));
         clamp_vector(part.push, greatest_push);
         const std::int64_t pushes[3] = {part.push.x, part.push.y, part.push.z};
         for (int axis = 0; axis < 3; ++axis) {
@@ -331,17 +298,14 @@ private:
 
     // With what the joints towards the root push the parent.
     Vec3 push_of(const ArticulatedJoint& part) {
-        ArticulatedBody& parent = scene_.articulated[part.parent];
+        const ArticulatedBody& parent = scene_.articulated[part.parent];
         const auto along = [&](int axis) {
             return dot_32(part.column_shift[axis], parent.force) +
                    dot_32(part.column_turn[axis], parent.torque);
         };
         Vec3 push = part.push + symmetric(part.inverse.entries, {along(0), along(1), along(2)});
         clamp_vector(push, greatest_push);
-        add_force(parent, part.parent_lever, -push);
-        if (part.child_moves) {
-            add_force(scene_.articulated[part.child], part.child_lever, push);
-        }
+        push_at_joint(scene_, part, push);
         return push;
     }
 };

@@ -89,7 +89,7 @@ void begin_tick(Attachment& attachment, const AttachmentSides& sides, const Step
 // After the prediction.
 void begin_substep(Attachment& attachment, const AttachmentSides& sides);
 void project(Attachment& attachment, const AttachmentSides& sides);
-// The body is pushed by `push`, and the particle is not: that has been moved already.
+// Only remembers what has been pushed otherwise (rigid/rope_loads.h).
 void add_push(Attachment& attachment, const fixed::Vec3& push);
 // Adds up what it pushed.
 void finish_substep(Attachment& attachment);

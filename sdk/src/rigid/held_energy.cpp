@@ -112,14 +112,14 @@ public:
         if (!hangs_on_what_rests(world)) {
             return;
         }
-        for_each_own_rope([&](const RopeLoad& first) {
-            before_ = before_ + first.predicted;
-            after_ = after_ + twice_energy(*world.objects[first.object].object, range_.heaviest);
+        for_each_own_rope([&](std::uint32_t object) {
+            before_ = before_ + scene_.rope_loads_of(object).front().predicted;
+            after_ = after_ + twice_energy(*world.objects[object].object, range_.heaviest);
         });
         const std::int64_t factor = take_out_gain(Body{});
         if (factor != one_factor) {
             for_each_own_rope(
-                [&](const RopeLoad& first) { lks::slow_down(*world.objects[first.object].object, factor); });
+                [&](std::uint32_t object) { lks::slow_down(*world.objects[object].object, factor); });
         }
     }
 
@@ -147,15 +147,14 @@ private:
         for_each_part(scene_, range_, kind, use);
     }
 
-    // use(the first load of it)
+    // use(object)
     template <typename Use>
     void for_each_own_rope(const Use& use) const {
-        const Array<RopeLoad>& loads = scene_.rope_loads;
-        for (std::size_t i = 0; i < loads.size(); ++i) {
-            if ((i == 0 || loads[i].object != loads[i - 1].object) && is_own(loads[i].object)) {
-                use(loads[i]);
+        for_each_loaded_rope(scene_, [&](std::uint32_t object) {
+            if (is_own(object)) {
+                use(object);
             }
-        }
+        });
     }
 
     bool is_part(std::uint32_t body) const {
@@ -171,8 +170,8 @@ private:
         for (const ColliderSlot& slot : world.colliders) {
             rests = rests && !(slot.used && slot.collider.moves());
         }
-        for_each_own_rope([&](const RopeLoad& first) {
-            const Object& object = *world.objects[first.object].object;
+        for_each_own_rope([&](std::uint32_t index) {
+            const Object& object = *world.objects[index].object;
             rests = rests && object.coefficients().chain.soft_part.is_zero();
             for (std::size_t i = 0; i < object.pins().size(); ++i) {
                 const Coordinates& to = object.pins()[i].target;
@@ -181,11 +180,11 @@ private:
             }
             for (std::size_t i = 0; i < scene_.attachments.size(); ++i) {
                 rests = rests && (!scene_.attachment_slots[i].used ||
-                                  !is_held_otherwise(scene_.attachments[i], first.object));
+                                  !is_held_otherwise(scene_.attachments[i], index));
             }
             for (const std::uint64_t pair : scene_.object_pairs) {
                 const auto body = static_cast<std::uint32_t>(pair);
-                rests = rests && (pair >> 32 != first.object || is_part(body) ||
+                rests = rests && (pair >> 32 != index || is_part(body) ||
                                   (!scene_.bodies[body].is_dynamic() && !scene_.bodies[body].is_moving()));
             }
         });
@@ -310,13 +309,14 @@ private:
 
 void measure_predicted(lks_world& world, std::uint32_t object) {
     RigidScene& scene = world.rigid;
-    const auto is_awake = [&scene](std::uint32_t body) { return scene.bodies[body].is_awake(); };
-    for (RopeLoad* load = scene.first_rope_load(object);
-         load != scene.rope_loads.end() && load->object == object; ++load) {
-        const std::uint32_t body = scene.attachments[load->attachment].description.other;
-        if (is_awake(body) && figure_range(scene, body).is_loaded) {
-            scene.first_rope_load(object)->predicted =
-                twice_energy(*world.objects[object].object, figure_range(scene, body).heaviest);
+    const std::span<RopeLoad> loads = scene.rope_loads_of(object);
+    for (const RopeLoad& load : loads) {
+        const std::uint32_t body = scene.attachments[load.attachment].description.other;
+        if (!scene.bodies[body].is_awake()) {
+            continue;
+        }
+        if (const FigureRange& figure = figure_range(scene, body); figure.is_loaded) {
+            loads.front().predicted = twice_energy(*world.objects[object].object, figure.heaviest);
             return;
         }
     }

@@ -3,6 +3,18 @@
 #include <algorithm>
 
 namespace lks {
+namespace {
+
+template <typename Loads>
+auto loads_of(Loads& loads, std::uint32_t object) {
+    const auto first = std::partition_point(loads.begin(), loads.end(),
+                                            [=](const RopeLoad& load) { return load.object < object; });
+    const auto end =
+        std::partition_point(first, loads.end(), [=](const RopeLoad& load) { return load.object == object; });
+    return std::span(first, end);
+}
+
+} // namespace
 
 RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_kernels)
     : body_slots(allocator), bodies(allocator), definitions(allocator), joint_slots(allocator),
@@ -113,11 +125,12 @@ void RigidScene::free_attachment(std::uint32_t index) {
     attachments[index] = Attachment{};
 }
 
-RopeLoad* RigidScene::first_rope_load(std::uint32_t object) {
-    RopeLoad* const first =
-        std::lower_bound(rope_loads.begin(), rope_loads.end(), object,
-                         [](const RopeLoad& load, std::uint32_t index) { return load.object < index; });
-    return first != rope_loads.end() && first->object == object ? first : rope_loads.end();
+std::span<RopeLoad> RigidScene::rope_loads_of(std::uint32_t object) {
+    return loads_of(rope_loads, object);
+}
+
+std::span<const RopeLoad> RigidScene::rope_loads_of(std::uint32_t object) const {
+    return loads_of(rope_loads, object);
 }
 
 void RigidScene::follow_joints() {

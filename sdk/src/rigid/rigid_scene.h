@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "kernels/tree_task.h"
 #include "memory/array.h"
@@ -161,8 +162,9 @@ struct RigidScene {
     void follow_joints();
     // By a joint whose bodies don't collide; a < b.
     bool are_jointed(std::uint32_t a, std::uint32_t b) const;
-    // Of an object; the end, where it has none.
-    RopeLoad* first_rope_load(std::uint32_t object);
+    // Those of an object.
+    std::span<RopeLoad> rope_loads_of(std::uint32_t object);
+    std::span<const RopeLoad> rope_loads_of(std::uint32_t object) const;
     bool empty() const { return bodies.empty() && attachments.empty(); }
     // Whether a contact does anything in this substep, once its rows are made.
     bool acts(std::size_t contact) const { return contacts_act[contact] != 0; }

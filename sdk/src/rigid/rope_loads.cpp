@@ -56,6 +56,12 @@ bool is_none(const fixed::Direction& n) {
     return n.x == 0 && n.y == 0 && n.z == 0;
 }
 
+// None: the body is not in one, or does not move.
+const ArticulatedTree* tree_of(const RigidScene& scene, std::uint32_t body) {
+    const std::uint32_t tree = scene.articulated[body].tree;
+    return tree != no_tree && scene.bodies[body].is_awake() ? &scene.trees[tree] : nullptr;
+}
+
 // How far its point moves by a push of one along the rope: 30 fraction bits of the greater inverse mass. In
 // the middle of a rope, which pulls in two directions, as far as in any.
 std::int64_t motion_by_rope(RigidScene& scene, const Attachment& attachment, const fixed::Direction& n) {
@@ -64,11 +70,10 @@ std::int64_t motion_by_rope(RigidScene& scene, const Attachment& attachment, con
     if (is_none(n)) {
         return k[0] + k[3] + k[5] - 2 * std::int64_t{attachment.side.share};
     }
-    const ArticulatedBody& part = scene.articulated[d.other];
-    if (part.tree != no_tree && scene.bodies[d.other].is_awake()) {
+    if (const ArticulatedTree* const tree = tree_of(scene, d.other); tree != nullptr) {
         const std::int64_t response =
-            std::max<std::int64_t>(response_of(scene, scene.trees[part.tree], d.other, d.point, n), 0);
-        return in_tree_unit(response >> (world_fraction_bits - 30), attachment, part);
+            std::max<std::int64_t>(response_of(scene, *tree, d.other, d.point, n), 0);
+        return in_tree_unit(response >> (world_fraction_bits - 30), attachment, scene.articulated[d.other]);
     }
     const auto times = [](std::int64_t entry, std::int32_t a, std::int32_t b) {
         return fixed::multiply_shift(entry, std::int64_t{a} * b, 60);
@@ -93,11 +98,7 @@ class LoadedRope {
 public:
     LoadedRope(lks_world& world, std::uint32_t object)
         : world_(world), scene_(world.rigid), object_(*world.objects[object].object),
-          first_(scene_.first_rope_load(object)), end_(first_) {
-        while (end_ != scene_.rope_loads.end() && end_->object == object) {
-            ++end_;
-        }
-    }
+          loads_(scene_.rope_loads_of(object)) {}
 
     void project() {
         for_each([this](RopeLoad& load, Attachment& attachment) {
@@ -139,22 +140,24 @@ public:
 private:
     template <typename Use>
     void for_each(const Use& use) {
-        for (RopeLoad* load = first_; load != end_; ++load) {
-            use(*load, scene_.attachments[load->attachment]);
+        for (RopeLoad& load : loads_) {
+            use(load, scene_.attachments[load.attachment]);
         }
     }
 
-    ParticleLoad* particles() { return scene_.particle_loads.begin() + (first_ - scene_.rope_loads.begin()); }
+    ParticleLoad* particles() {
+        return scene_.particle_loads.begin() + (loads_.data() - scene_.rope_loads.data());
+    }
 
     // Loads of one particle stand together.
     void weigh() {
         particle_count_ = 0;
         ParticleLoad* const to = particles();
-        for (const RopeLoad* load = first_; load != end_;) {
+        for (auto load = loads_.begin(); load != loads_.end();) {
             const std::uint32_t particle = load->particle;
             Scaled mass = object_.asset().masses[particle];
             bool moves = true;
-            for (; load != end_ && load->particle == particle; ++load) {
+            for (; load != loads_.end() && load->particle == particle; ++load) {
                 const Attachment& attachment = scene_.attachments[load->attachment];
                 moves = moves && load->motion > 0;
                 mass = mass + mass_of(attachment, *load);
@@ -185,7 +188,7 @@ private:
     // The body, with what is joined to it.
     void push_body(const Attachment& attachment, const Vec3& more) {
         const AttachmentDescription& d = attachment.description;
-        if (const ArticulatedTree* const tree = tree_of(d.other); tree != nullptr) {
+        if (const ArticulatedTree* const tree = tree_of(scene_, d.other); tree != nullptr) {
             push_from_outside(scene_, *tree, d.other, d.point, in_tree_unit(more, attachment));
         } else {
             lks::push(scene_.bodies[d.other], attachment.side, more, 1);
@@ -195,7 +198,7 @@ private:
     // At the end of a substep.
     void shift_body(const Attachment& attachment, const Vec3& push) {
         const AttachmentDescription& d = attachment.description;
-        if (const ArticulatedTree* const tree = tree_of(d.other); tree != nullptr) {
+        if (const ArticulatedTree* const tree = tree_of(scene_, d.other); tree != nullptr) {
             shift_from_outside(scene_, *tree, d.other, d.point, in_tree_unit(push, attachment));
         } else {
             Body& body = scene_.bodies[d.other];
@@ -204,10 +207,6 @@ private:
         }
     }
 
-    const ArticulatedTree* tree_of(std::uint32_t body) const {
-        const std::uint32_t tree = scene_.articulated[body].tree;
-        return tree != no_tree && scene_.bodies[body].is_awake() ? &scene_.trees[tree] : nullptr;
-    }
     Vec3 in_tree_unit(const Vec3& push, const Attachment& attachment) const {
         const ArticulatedBody& part = scene_.articulated[attachment.description.other];
         return {lks::in_tree_unit(push.x, attachment, part), lks::in_tree_unit(push.y, attachment, part),
@@ -217,8 +216,7 @@ private:
     lks_world& world_;
     RigidScene& scene_;
     Object& object_;
-    RopeLoad* first_;
-    RopeLoad* end_;
+    std::span<RopeLoad> loads_;
     std::size_t particle_count_ = 0;
 };
 

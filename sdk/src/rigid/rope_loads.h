@@ -19,6 +19,8 @@
 // at its end.
 #pragma once
 
+#include <algorithm>
+
 #include "solver/world.h"
 
 namespace lks {
@@ -40,8 +42,8 @@ void undo_rope_loads(lks_world& world, std::uint32_t object);
 // At the end of a tick's substeps: ropes know nothing of it any more.
 void forget_rope_loads(lks_world& world);
 
-inline bool bears_loads(RigidScene& scene, std::uint32_t object) {
-    return !scene.rope_loads.empty() && scene.first_rope_load(object) != scene.rope_loads.end();
+inline bool bears_loads(const RigidScene& scene, std::uint32_t object) {
+    return !scene.rope_loads_of(object).empty();
 }
 
 // use(object)
@@ -58,11 +60,10 @@ void for_each_loaded_rope(const RigidScene& scene, const Use& use) {
 // Whether any(body) of one of those that weigh on it.
 template <typename Any>
 bool any_rope_load(const RigidScene& scene, std::uint32_t object, const Any& any) {
-    bool found = false;
-    for (const RopeLoad& load : scene.rope_loads) {
-        found = found || (load.object == object && any(scene.attachments[load.attachment].description.other));
-    }
-    return found;
+    const std::span<const RopeLoad> loads = scene.rope_loads_of(object);
+    return std::any_of(loads.begin(), loads.end(), [&](const RopeLoad& load) {
+        return any(scene.attachments[load.attachment].description.other);
+    });
 }
 
 } // namespace lks

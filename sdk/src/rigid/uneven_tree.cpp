@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "collide/saturation.h"
-#include "rigid/articulation_algebra.h"
+#include "rigid/articulation_joint.h"
 #include "rigid/articulation_walk.h"
 
 namespace lks {
@@ -95,26 +95,12 @@ Vec3 solved(const UnevenJoint& joint, const Vec3& v) {
 void fold_in(ArticulatedInverse& w, const UnevenJoint& joint) {
     Vec3 rows[6]; // of U·L⁻ᵀ
     Vec3 shares[6];
-    for (int i = 0; i < 3; ++i) {
-        rows[i] = forward(joint, {component(joint.column_shift[0], i), component(joint.column_shift[1], i),
-                                  component(joint.column_shift[2], i)});
-        rows[3 + i] = forward(joint, {component(joint.column_turn[0], i), component(joint.column_turn[1], i),
-                                      component(joint.column_turn[2], i)});
-    }
+    rows_of(joint.column_shift, joint.column_turn, rows);
     for (int i = 0; i < 6; ++i) {
+        rows[i] = forward(joint, rows[i]);
         shares[i] = divided(joint, rows[i]);
     }
-    int entry = 0;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = i; j < 3; ++j) {
-            w.shift[entry] = minus(w.shift[entry], dot_40(shares[i], rows[j]));
-            w.turn[entry] = minus(w.turn[entry], dot_40(shares[3 + i], rows[3 + j]));
-            ++entry;
-        }
-        for (int j = 0; j < 3; ++j) {
-            w.mixed[3 * i + j] = minus(w.mixed[3 * i + j], dot_40(shares[i], rows[3 + j]));
-        }
-    }
+    take_out_rows(w, shares, rows, dot_40);
 }
 
 class UnevenTree : public ArticulationWalk {
@@ -124,10 +110,11 @@ public:
     void factor() {
         for_each_body(
             [](Body& body, ArticulatedBody& part) { part.inverse = fine_inverse(body, part.fine_share); });
-        for_each_joint_back([this](ArticulatedJoint& part, const Joint& joint) {
+        for_each_joint_back([this](ArticulatedJoint& part, const Joint&) {
             UnevenJoint& fine = uneven_joint(scene_, part);
-            place_levers(part, joint);
-            factor_joint(part, fine);
+            std::int64_t d[6] = {};
+            place_joint(scene_, part, fine.column_shift, fine.column_turn, d);
+            factor_points(d, fine);
             if (&part != &scene_.tree_joints[range_.first_joint]) {
                 fold_in(scene_.articulated[part.parent].inverse, fine);
             }
@@ -136,30 +123,6 @@ public:
 
     static UnevenJoint& uneven_joint(RigidScene& scene, const ArticulatedJoint& part) {
         return scene.uneven_joints[static_cast<std::size_t>(&part - scene.tree_joints.begin())];
-    }
-
-private:
-    void place_levers(ArticulatedJoint& part, const Joint& joint) {
-        part.pair_share = scene_.articulated[part.parent].share;
-        if (part.child_moves) {
-            part.pair_share = std::max(part.pair_share, scene_.articulated[part.child].share);
-            part.child_lever = lever_in_units(scene_.bodies[part.child], point_of(joint, part.child_is_a));
-        }
-        part.parent_lever = lever_in_units(scene_.bodies[part.parent], point_of(joint, !part.child_is_a));
-    }
-
-    void factor_joint(const ArticulatedJoint& part, UnevenJoint& fine) {
-        std::int64_t d[6] = {};
-        if (part.child_moves) {
-            Vec3 shift[3];
-            Vec3 turn[3];
-            push_columns(scene_.articulated[part.child].inverse, part.child_lever, shift, turn);
-            add_point_motion(part.child_lever, shift, turn, d);
-        }
-        push_columns(scene_.articulated[part.parent].inverse, part.parent_lever, fine.column_shift,
-                     fine.column_turn);
-        add_point_motion(part.parent_lever, fine.column_shift, fine.column_turn, d);
-        factor_points(d, fine);
     }
 };
 
@@ -172,11 +135,7 @@ void factor_uneven(RigidScene& scene, const ArticulatedTree& tree) {
 void fold_uneven(RigidScene& scene, ArticulatedJoint& part, const Vec3& apart) {
     const UnevenJoint& fine = UnevenTree::uneven_joint(scene, part);
     ArticulatedBody& parent = scene.articulated[part.parent];
-    Vec3 left = apart - point_motion(parent, part.parent_lever);
-    if (part.child_moves) {
-        left = left + point_motion(scene.articulated[part.child], part.child_lever);
-    }
-    part.push = -solved(fine, left);
+    part.push = -solved(fine, left_apart(scene, part, apart));
     clamp_vector(part.push, greatest_uneven_push);
     const std::int64_t pushes[3] = {part.push.x, part.push.y, part.push.z};
     for (int axis = 0; axis < 3; ++axis) {
@@ -187,17 +146,14 @@ void fold_uneven(RigidScene& scene, ArticulatedJoint& part, const Vec3& apart) {
 
 Vec3 push_uneven(RigidScene& scene, const ArticulatedJoint& part) {
     const UnevenJoint& fine = UnevenTree::uneven_joint(scene, part);
-    ArticulatedBody& parent = scene.articulated[part.parent];
+    const ArticulatedBody& parent = scene.articulated[part.parent];
     const auto along = [&](int axis) {
         return plus(dot_40(fine.column_shift[axis], parent.force),
                     dot_40(fine.column_turn[axis], parent.torque));
     };
     Vec3 push = part.push + solved(fine, {along(0), along(1), along(2)});
     clamp_vector(push, greatest_uneven_push);
-    add_force(parent, part.parent_lever, -push);
-    if (part.child_moves) {
-        add_force(scene.articulated[part.child], part.child_lever, push);
-    }
+    push_at_joint(scene, part, push);
     return push;
 }
 

@@ -78,7 +78,7 @@ public:
             return true;
         }
         push_particles(0);
-        units_ = passes_limit() ? units_within_limit() : 0;
+        units_ = units_to_carry();
         if (units_ != 0) {
             push_particles(units_);
         }
@@ -413,13 +413,15 @@ private:
         });
     }
 
-    // Whether a movement was limited, on which the second pass must not build: the pushes of neighbours would
-    // no longer cancel, and a light particle's loss be as great a push on the heavy one behind it. Seldom,
-    // and never where all multipliers are short.
-    bool passes_limit() const {
-        if (units_within_limit() == 0) {
-            return false;
-        }
+    // None, but where a movement was limited, on which the second pass must not build: the pushes of
+    // neighbours would no longer cancel, and a light particle's loss be as great a push on the heavy one
+    // behind it. Seldom, and never where all multipliers are short.
+    int units_to_carry() const {
+        const int units = units_within_limit();
+        return units != 0 && is_limited() ? units : 0;
+    }
+
+    bool is_limited() const {
         for (const std::int64_t* const movements : work_.movements) {
             for (std::uint32_t i = 0; i <= count_; ++i) {
                 if (!within(movements[i], substep_motion_limit - 1)) {

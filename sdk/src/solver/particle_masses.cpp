@@ -14,12 +14,10 @@ Scaled PinnedParticles::inverse_mass(const lks_asset& asset, std::uint32_t parti
     if (contains(particle)) {
         return {};
     }
-    for (std::size_t i = 0; i < load_count; ++i) {
-        if (loads[i].particle == particle) {
-            return loads[i].inverse_mass;
-        }
-    }
-    return asset.inverse_masses[particle];
+    const ParticleLoad* const end = loads + load_count;
+    const ParticleLoad* const load = std::lower_bound(
+        loads, end, particle, [](const ParticleLoad& l, std::uint32_t of) { return l.particle < of; });
+    return load != end && load->particle == particle ? load->inverse_mass : asset.inverse_masses[particle];
 }
 
 std::size_t PinnedParticles::immovable_count() const {

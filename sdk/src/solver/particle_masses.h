@@ -15,7 +15,7 @@ struct ParticleLoad {
     fixed::Scaled inverse_mass; // with what hangs there, 1/kg; zero: it does not move
 };
 
-// Particles that have infinite mass, in ascending order, and those that bear loads.
+// Particles that have infinite mass, and those that bear loads, each in ascending order.
 struct PinnedParticles {
     const std::uint32_t* particles = nullptr;
     std::size_t count = 0;
