@@ -324,6 +324,49 @@ TEST_CASE("a crowd whose trees are solved side by side has the bits of plain int
     check_lanes(hashes_of);
 }
 
+TEST_CASE("figures that hang on ropes among others that don't have the bits of plain integers") {
+    Chain chain;
+    chain.segments = 8;
+    chain.length = 1;
+    chain.particle_mass = 0.05;
+    chain.solver = LKS_ROPE_DIRECT;
+    const Asset rope = chain.build();
+    for (std::uint32_t roped = 0; roped < 4; ++roped) {
+        const auto hashes_of = [&](std::uint32_t workers, lks_simd simd) {
+            World world(settings(6, workers, simd));
+            lks_attachment_id held{};
+            for (std::uint32_t i = 0; i < 4; ++i) {
+                Humanoid humanoid;
+                humanoid.def.transform = {fixed(2.0 * i, 0, 0), about(1, 0, 0, 0)};
+                lks_body_id bodies[LKS_HUMANOID_BONES];
+                REQUIRE(humanoid.add(world, bodies) == LKS_OK);
+                if (i == roped) {
+                    const Vector hand = state_of(world, bodies[LKS_HUMANOID_HAND_LEFT]).position;
+                    const lks_object_id line = world.add(
+                        rope, {fixed(hand.x - chain.length, hand.y, hand.z), {0, 0, 0, LKS_ROTATION_ONE}});
+                    world.pin(line, 0);
+                    lks_attachment_def def = lks_default_attachment_def();
+                    def.object = line;
+                    def.vertex = chain.segments;
+                    def.body = bodies[LKS_HUMANOID_HAND_LEFT];
+                    REQUIRE(lks_world_add_attachment(world, &def, &held) == LKS_OK);
+                }
+            }
+            std::vector<std::uint64_t> hashes;
+            for (int tick = 0; tick < 60; ++tick) {
+                if (tick == 45) {
+                    REQUIRE(lks_world_remove_attachment(world, held) == LKS_OK);
+                }
+                world.step();
+                hashes.push_back(world.hash());
+            }
+            return hashes;
+        };
+        INFO("number ", roped);
+        check_lanes(hashes_of);
+    }
+}
+
 TEST_CASE("figures that are thrown at a wall, some of them ahead, have the bits of plain integers") {
     const auto hashes_of = [](std::uint32_t workers, lks_simd simd) {
         World world(settings(8, workers, simd));

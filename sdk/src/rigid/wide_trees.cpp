@@ -74,7 +74,7 @@ std::uint32_t find_parent(const RigidScene& scene, const ArticulatedTree& tree, 
 bool are_alike(const RigidScene& scene, const ArticulatedTree& a, const ArticulatedTree& b) {
     const std::uint32_t count = body_count(a);
     bool alike = body_count(b) == count && b.joint_end - b.first_joint == a.joint_end - a.first_joint &&
-                 b.is_uneven == a.is_uneven;
+                 b.is_uneven == a.is_uneven && b.is_loaded == a.is_loaded;
     for (std::uint32_t i = 0; i < count && alike; ++i) {
         alike = have_same_units(body_of(scene, a, i), body_of(scene, b, i));
     }
