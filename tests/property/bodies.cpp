@@ -172,47 +172,6 @@ TEST_CASE("a ball bounces to the height that its restitution gives it") {
     }
 }
 
-TEST_CASE("a box slides as far as friction lets it") {
-    for (const double friction : {0.2, 0.5}) {
-        World world(world_def(60, 8));
-        add_ground(world, friction);
-        lks_body_def def = lks_default_body_def();
-        def.static_friction = def.dynamic_friction = fixed(friction);
-        def.velocity = fixed(4, 0, 0);
-        const lks_body_id box = add_body(world, box_shape(0.5, 0.25, 0.5), fixed(0, 0.25, 0), def);
-        world.step(300);
-        const BodyState state = state_of(world, box);
-        const double expected = 16 / (2 * g * friction);
-        INFO("friction " << friction << ": " << state.position.x << " of " << expected);
-        CHECK(std::abs(state.position.x - expected) < 0.01 * expected);
-        CHECK(state.velocity.length() < 1e-5);
-    }
-}
-
-TEST_CASE("a box stays on a slope below the angle of friction, and slides above it as it should") {
-    const double friction = 0.5;
-    const double limit = std::atan(friction) * 180 / std::acos(-1.0);
-    for (const double degrees : {limit - 1, limit - 0.1, limit + 0.1, limit + 0.3, limit + 3}) {
-        World world(world_def(60, 8));
-        lks_rotation slope{};
-        REQUIRE(lks_rotation_from_axis_angle(0, 0, 1, degrees, &slope) == LKS_OK);
-        add_ground(world, friction, &slope);
-        const double angle = degrees * std::acos(-1.0) / 180;
-        lks_body_def def = lks_default_body_def();
-        def.static_friction = def.dynamic_friction = fixed(friction);
-        def.never_sleeps = 1; // what slides off so slowly would
-        def.transform.rotation = slope;
-        const lks_vec3 place = fixed(-0.25 * std::sin(angle), 0.25 * std::cos(angle), 0);
-        const lks_body_id box = add_body(world, box_shape(0.5, 0.25, 0.5), place, def);
-        world.step(60);
-        const double moved = (state_of(world, box).position - metres(place)).length();
-        const double expected = degrees < limit ? 0 : (std::sin(angle) - friction * std::cos(angle)) * g / 2;
-        INFO(degrees << " degrees: " << moved << " of " << expected);
-        // In its first substeps friction has no normal force to go by yet.
-        CHECK(std::abs(moved - expected) < 0.001 * expected + (degrees < limit ? 1e-4 : 1.4e-3));
-    }
-}
-
 TEST_CASE("a capsule rolls on at the speed it has") {
     World world(world_def(60, 8));
     add_ground(world);

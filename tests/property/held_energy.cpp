@@ -130,7 +130,7 @@ TEST_CASE("a figure that is led by a bone which stops dead gains nothing" *
         MESSAGE("bone " << led.bone << ", " << led.speed << " m/s, " << led.substeps << " substeps: "
                         << stops.most << " J gained at the most, " << 1e3 * stops.apart << " mm apart");
         CHECK(stops.risen == 0); // of 4 to 9.5 kJ
-        CHECK(stops.apart < 15e-3);
+        CHECK(stops.apart < 25e-3);
     }
 }
 

@@ -2,6 +2,7 @@
 // sdk/src/rigid/attachment.h.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -28,10 +29,20 @@ public:
         expected_ = pushed_ * (1 / static_cast<Scalar>(substeps));
         pushed_ = {};
     }
+    // Before the prediction: what comes together by two metres a second at most.
+    void measure_left(const Objects& objects, const Bodies& bodies, Scalar rate) {
+        const Vec gap = offset(objects, bodies);
+        const Scalar length = std::sqrt(gap.dot(gap));
+        const Scalar most = 2 / rate;
+        const Scalar other = from_.to_body ? bodies[from_.other].inverse_mass
+                                           : objects[from_.other].inverse_mass(from_.other_particle);
+        left_ =
+            other > 0 && from_.compliance == 0 && length > most ? gap * ((length - most) / length) : Vec{};
+    }
     // After the prediction.
     void begin_substep(const Objects& objects, const Bodies& bodies) {
         push_ = {};
-        begin_ = offset(objects, bodies);
+        begin_ = error(objects, bodies);
         const Scalar own = objects[from_.object].inverse_mass(from_.particle);
         if (from_.to_body) {
             const Body& body = bodies[from_.other];
@@ -45,8 +56,8 @@ public:
         }
     }
     void project(Objects& objects, Bodies& bodies) {
-        const Vec error = offset(objects, bodies);
-        const Vec next = points_.next_push(error, error - begin_, push_);
+        const Vec now = error(objects, bodies);
+        const Vec next = points_.next_push(now, now - begin_, push_);
         const Vec more = next - push_;
         push_ = next;
         move(objects[from_.object], from_.particle, more * Scalar(-1));
@@ -71,6 +82,7 @@ private:
         }
         return objects[from_.other].place_of(from_.other_particle) - here;
     }
+    Vec error(const Objects& objects, const Bodies& bodies) const { return offset(objects, bodies) - left_; }
     static void move(Solver<Scalar>& object, std::size_t particle, const Vec& push) {
         object.place_of(particle) = object.place_of(particle) + push * object.inverse_mass(particle);
     }
@@ -84,7 +96,8 @@ private:
     Vec pushed_, expected_; // in this tick, and in a substep of the one before
     // Of the substep.
     Vec push_;
-    Vec begin_; // how far it was apart at its beginning
+    Vec left_;  // how far the sides stay apart
+    Vec begin_; // how far they are apart beyond that once they are predicted
     Vec lever_;
 };
 

@@ -110,7 +110,12 @@ public:
             return false;
         }
         const PushRow<Scalar> row(normal, body_a, levers.a, body_b, levers.b);
-        row.accelerate(row.push_for(approach * (1 + restitution)), body_a, body_b);
+        const Scalar impulse = row.push_for(approach * (1 + restitution));
+        row.accelerate(impulse, body_a, body_b);
+        const std::array<PushRow<Scalar>, 2> across{
+            PushRow<Scalar>(across_[0], body_a, levers.a, body_b, levers.b),
+            PushRow<Scalar>(across_[1], body_a, levers.a, body_b, levers.b)};
+        rub_at_once(across, levers, impulse, body_a, body_b);
         return true;
     }
 
@@ -175,8 +180,9 @@ public:
         }
     }
 
-    // `to_a`, `to_b`: what contacts have done to the bodies in these sweeps.
-    void project(Move& to_a, Move& to_b, bool back) {
+    // `to_a`, `to_b`: what contacts have done to the bodies in these sweeps. What slips further than
+    // `slow_slip` slides.
+    void project(Move& to_a, Move& to_b, bool back, Scalar slow_slip) {
         if (active_count_ > 1) {
             push_middle(to_a, to_b);
         }
@@ -190,7 +196,7 @@ public:
             point.along.add(wanted - point.push, to_a, to_b);
             point.push = wanted;
             if (wanted != 0 || point.rub[0] != 0 || point.rub[1] != 0) {
-                rub(point, to_a, to_b);
+                rub(point, to_a, to_b, slow_slip);
             }
         }
     }
@@ -225,6 +231,11 @@ public:
         }
         constexpr int most_rounds = 16;
         for (int round = 0; round < most_rounds && give_each(owed, body_a, body_b); ++round) {}
+        for (const Owed& one : owed) {
+            if (one.given > 0) {
+                rub_at_once(one.point->across, one.levers, one.given, body_a, body_b);
+            }
+        }
     }
 
     // Overlaps beyond half a millimetre, or a centimetre of jointed bodies: a quarter a substep, at most
@@ -408,17 +419,35 @@ private:
         middle_.add(n * more, to_a, to_b);
     }
 
+    // Friction of an impulse along the normal.
+    void rub_at_once(const std::array<PushRow<Scalar>, 2>& across, const Levers& levers,
+                     Scalar normal_impulse, Body& body_a, Body& body_b) const {
+        const Vec slip =
+            body_b.velocity + cross(body_b.spin, levers.b) - body_a.velocity - cross(body_a.spin, levers.a);
+        std::array<Scalar, 2> wanted;
+        for (std::size_t i = 0; i < 2; ++i) {
+            wanted[i] = -across[i].push_for(across_[i].dot(slip));
+        }
+        const Scalar size = std::hypot(wanted[0], wanted[1]);
+        const Scalar most = normal_impulse * dynamic_friction;
+        const Scalar factor = size > most ? most / size : Scalar(1);
+        for (std::size_t i = 0; i < 2; ++i) {
+            across[i].accelerate(wanted[i] * factor, body_a, body_b);
+        }
+    }
+
     // Coulomb's cone: both directions across at once.
-    void rub(Point& point, Move& to_a, Move& to_b) {
+    void rub(Point& point, Move& to_a, Move& to_b, Scalar slow_slip) {
         std::array<Scalar, 2> wanted;
         for (std::size_t i = 0; i < 2; ++i) {
             const Scalar slip = point.slip[i] + point.across[i].parted(to_a, to_b);
             wanted[i] = point.rub[i] - point.across[i].push_for(slip);
         }
         const Scalar size = std::hypot(wanted[0], wanted[1]);
-        if (size > point.push * static_friction) {
-            const Scalar factor = point.push * dynamic_friction / size;
-            wanted = {wanted[0] * factor, wanted[1] * factor};
+        const bool slides = std::hypot(point.slip[0], point.slip[1]) > slow_slip;
+        const Scalar most = point.push * (slides ? dynamic_friction : static_friction);
+        if (size > most) {
+            wanted = {wanted[0] * most / size, wanted[1] * most / size};
         }
         for (std::size_t i = 0; i < 2; ++i) {
             point.across[i].add(wanted[i] - point.rub[i], to_a, to_b);

@@ -66,6 +66,11 @@ struct RigidParts {
             attachment.begin_tick(substeps);
         }
     }
+    void measure_left(Scalar rate) {
+        for (Attachment& attachment : attachments) {
+            attachment.measure_left(objects, bodies, rate);
+        }
+    }
     void begin_substep(int substep) {
         for (Solver<Scalar>& object : objects) {
             object.begin_substep(substep);

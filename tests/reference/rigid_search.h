@@ -126,13 +126,24 @@ private:
         const auto sticks = [](const ManifoldPoint<Scalar>& point) {
             return point.separation < -Contact::sticking_depth;
         };
-        contact.every_substep =
-            fast || passed || std::any_of(manifold.points.begin(), manifold.points.end(), sticks);
+        const Vec way = (body_b.velocity - body_a.velocity) * (1 / tick_rate);
+        contact.every_substep = fast || passed ||
+                                std::any_of(manifold.points.begin(), manifold.points.end(), sticks) ||
+                                (!contact.jointed && normal_turns(piece_a, piece_b, manifold.normal, way));
         contact.take_manifold(manifold, body_a, body_b, old);
         if (passed) {
             find_points(contact, bodies, substep_rate, side);
         }
         return true;
+    }
+
+    static bool is_round(const Piece<Scalar>& piece) {
+        return piece.kind == LKS_SHAPE_SPHERE || piece.kind == LKS_SHAPE_CAPSULE;
+    }
+    // By more than a 64th in this tick.
+    static bool normal_turns(const Piece<Scalar>& a, const Piece<Scalar>& b, const Vec& normal,
+                             const Vec& way) {
+        return is_round(a) && is_round(b) && sum(way - normal * normal.dot(way)) > (a.radius + b.radius) / 64;
     }
 
     void find_points(Contact& contact, const std::vector<Body>& bodies, Scalar substep_rate,

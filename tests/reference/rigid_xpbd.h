@@ -41,7 +41,7 @@ public:
         : settings_(settings), rate_(static_cast<Scalar>(settings.tick_rate_hz * settings.substeps)),
           motion_(Vec(settings.gravity), rate_, settings.substeps), search_(model),
           body_count_(model.bodies.size()), least_approach_(least_approach(settings)),
-          carried_(parts_, 2 * least_approach_ / rate_) {
+          slow_slip_(slow_slip(settings)), carried_(parts_, 2 * least_approach_ / rate_) {
         for (const RigidBody& from : model.bodies) {
             bodies_.emplace_back(from);
         }
@@ -130,12 +130,17 @@ private:
     using Contact = BodyContact<Scalar>;
     using Move = BodyMove<Scalar>;
 
-    // What a substep of gravity alone gives a body is no impact.
-    static Scalar least_approach(const Settings& settings) {
+    // What a substep of gravity alone gives a body is no impact, and no sliding.
+    static double gravity_speed(const Settings& settings) {
         const support::Vector& g = settings.gravity;
-        const double rate = settings.tick_rate_hz * settings.substeps;
-        const double gravity_speed = (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)) / rate;
-        return static_cast<Scalar>(4 * gravity_speed + 0.01);
+        return (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)) / (settings.tick_rate_hz * settings.substeps);
+    }
+    static Scalar least_approach(const Settings& settings) {
+        return static_cast<Scalar>(4 * gravity_speed(settings) + 0.01);
+    }
+    static Scalar slow_slip(const Settings& settings) {
+        return static_cast<Scalar>((gravity_speed(settings) + 0.01) /
+                                   (settings.tick_rate_hz * settings.substeps));
     }
 
     void add_still(const RigidCollider& collider) {
@@ -154,6 +159,7 @@ private:
             contact.begin(a, b, rate_);
         });
         parts_.for_each_joint([](Joint& joint, Body& a, Body& b) { joint.begin(a, b); });
+        parts_.measure_left(rate_);
         strike_all();
         for (Body& body : bodies_) {
             motion_.predict(body, number);
@@ -264,7 +270,7 @@ private:
         for (std::size_t k = 0; k < contacts_.size(); ++k) {
             Contact& contact = contacts_[back ? contacts_.size() - 1 - k : k];
             if (parts_.is_shared(contact) == shared && takes(contact)) {
-                contact.project(contact_moves_[contact.a], contact_moves_[contact.b], back);
+                contact.project(contact_moves_[contact.a], contact_moves_[contact.b], back, slow_slip_);
             }
         }
     }
@@ -322,6 +328,7 @@ private:
     ContactSearch<Scalar> search_;
     std::size_t body_count_;
     Scalar least_approach_;
+    Scalar slow_slip_;
     RigidParts<Scalar> parts_;
     std::vector<Body>& bodies_ = parts_.bodies;
     std::vector<Joint>& joints_ = parts_.joints;

@@ -56,7 +56,7 @@ typedef struct lks_body_def {
     lks_fixed linear_damping;   /* 1/s, 0 .. 1000 */
     lks_fixed angular_damping;  /* 1/s, 0 .. 1000 */
     lks_fixed static_friction;  /* 0 .. 100; of two surfaces the geometric mean counts */
-    lks_fixed dynamic_friction; /* 0 .. static_friction */
+    lks_fixed dynamic_friction; /* of what slides, 0 .. static_friction */
     lks_fixed restitution;      /* 0 .. 1: the share of the normal speed that an impact gives back; of two
                                    surfaces the greater counts */
     lks_filter filter;          /* against bodies, colliders and particles */

@@ -68,6 +68,10 @@ Vec3 attachment_offset(const Attachment& attachment, const AttachmentSides& side
     return saturating_subtract(there, here);
 }
 
+Vec3 attachment_error(const Attachment& attachment, const AttachmentSides& sides) {
+    return saturating_subtract(attachment_offset(attachment, sides), attachment.left);
+}
+
 AttachmentConstants make_attachment_constants(const AttachmentDescription& d, const AttachmentSides& sides,
                                               const StepRate& rate) {
     AttachmentConstants c{};
@@ -101,10 +105,23 @@ void begin_tick(Attachment& attachment, const AttachmentSides& sides, const Step
     }
 }
 
+void measure_left(Attachment& attachment, const AttachmentSides& sides, const MotionRate& rate) {
+    attachment.left = {0, 0, 0};
+    const bool thrown = (attachment.constants.movable & 2) != 0;
+    if (!thrown || attachment.constants.softness.softness != 0) {
+        return;
+    }
+    const std::int64_t most = LKS_FIXED(2) / rate.substeps_per_second;
+    fixed::NormalisedVector gap{};
+    if (fixed::normalise(attachment_offset(attachment, sides), gap) && gap.length > most) {
+        attachment.left = fixed::scale(gap.direction, gap.length - most);
+    }
+}
+
 void begin_substep(Attachment& attachment, const AttachmentSides& sides) {
     const AttachmentConstants& c = attachment.constants;
     attachment.push = {0, 0, 0};
-    attachment.begin = attachment_offset(attachment, sides);
+    attachment.begin = attachment_error(attachment, sides);
     const std::int64_t diagonal = c.softness.softness + c.shares.a + (sides.body == nullptr ? c.shares.b : 0);
     std::int64_t k[6] = {};
     attachment.side = {};
@@ -125,10 +142,10 @@ void project(Attachment& attachment, const AttachmentSides& sides) {
     if (attachment.constants.movable == 0) {
         return;
     }
-    const Vec3 offset = attachment_offset(attachment, sides);
+    const Vec3 error = attachment_error(attachment, sides);
     const Vec3 before = attachment.push;
-    attachment.push = next_push(attachment.inverse, attachment.constants.softness, offset,
-                                saturating_subtract(offset, attachment.begin), before);
+    attachment.push = next_push(attachment.inverse, attachment.constants.softness, error,
+                                saturating_subtract(error, attachment.begin), before);
     push_apart(attachment, sides, attachment.push - before);
 }
 

@@ -7,6 +7,7 @@
 #include <lockstitch/attachment.h>
 
 #include "rigid/block.h"
+#include "rigid/body_motion.h"
 #include "solver/object.h"
 
 namespace lks {
@@ -48,8 +49,9 @@ struct Attachment {
     bool loads_rope; // its rope bears what hangs here (rigid/rope_loads.h)
 
     // Of the substep.
+    fixed::Vec3 left; // how far the sides stay apart for now
     fixed::Vec3 push;
-    fixed::Vec3 begin; // how far it was apart at its beginning
+    fixed::Vec3 begin; // how far they are apart once they are predicted
     BlockSide side;
     BlockInverse inverse;
     std::int64_t body_motion[6]; // by a push at it: the body's part of what `inverse` is of
@@ -86,6 +88,9 @@ fixed::Scaled greater_inverse_mass(const Attachment& attachment, const Attachmen
 
 // Before a tick's substeps: what is pinned may have changed.
 void begin_tick(Attachment& attachment, const AttachmentSides& sides, const StepRate& rate);
+// Before the prediction. What is attached where it is not comes together by two metres a second at most: all
+// at once it would be thrown.
+void measure_left(Attachment& attachment, const AttachmentSides& sides, const MotionRate& rate);
 // After the prediction.
 void begin_substep(Attachment& attachment, const AttachmentSides& sides);
 void project(Attachment& attachment, const AttachmentSides& sides);
@@ -97,6 +102,8 @@ bool breaks(const Attachment& attachment);
 
 // How far the sides are apart in world axes: the other less the particle.
 fixed::Vec3 attachment_offset(const Attachment& attachment, const AttachmentSides& sides);
+// The same beyond what stays in this substep.
+fixed::Vec3 attachment_error(const Attachment& attachment, const AttachmentSides& sides);
 // A particle in the world.
 fixed::Vec3 particle_position(const Object& object, std::uint32_t particle);
 // By a World shift; what leaves the object's range stops at its edge.

@@ -160,9 +160,9 @@ void carry_on(Contact& contact, bool to_a, Move& move);
 // Adds a share of its pushes, 30 fraction bits, -1 .. 1.
 void carry_more(Contact& contact, ContactBodies bodies, std::int32_t share);
 // In each iteration: where the bodies are before contacts push them. They stay there in the sweeps forward
-// and back, to which their moves are small.
+// and back, to which their moves are small. What slips by more than `slow_slip` in the substep slides.
 void measure(Contact& contact, ContactBodies bodies);
-void project(Contact& contact, ContactMoves moves, bool back);
+void project(Contact& contact, ContactMoves moves, bool back, std::int64_t slow_slip);
 // Whether what pushes is still closing by more than this in the substep.
 bool closes(const Contact& contact, const ContactBodies& bodies, std::int64_t distance);
 // For events: what it pushed in this substep.

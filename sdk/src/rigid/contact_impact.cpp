@@ -12,13 +12,32 @@ namespace {
 // At once, World m/s: what divide() takes.
 constexpr std::int64_t greatest_given = std::int64_t{1} << 55;
 
-// By an impulse along the normal.
-void accelerate(const Contact& contact, const ContactRows& rows, std::int64_t p,
+// By an impulse along one of the contact's directions.
+void accelerate(const Contact& contact, const ContactRows& rows, int row, std::int64_t p,
                 const ContactBodies& bodies) {
-    accelerate(bodies.a, rows.a.rows[normal_row], contact.shares.a, rows.a.turn_shift, contact.normal(), p,
-               -1);
-    accelerate(bodies.b, rows.b.rows[normal_row], contact.shares.b, rows.b.turn_shift, contact.normal(), p,
-               1);
+    const fixed::Direction& along = contact.directions[row];
+    accelerate(bodies.a, rows.a.rows[row], contact.shares.a, rows.a.turn_shift, along, p, -1);
+    accelerate(bodies.b, rows.b.rows[row], contact.shares.b, rows.b.turn_shift, along, p, 1);
+}
+
+// Coulomb's friction of an impulse along the normal, at once: what slips is stopped, or slides on by what
+// that leaves. It takes energy out: both rows together undo no more than the slip there is.
+void rub(const Contact& contact, const ContactRows& rows, const Levers& levers, std::int64_t normal,
+         const ContactBodies& bodies) {
+    const fixed::Vec3 slip = velocity_at(bodies.b, levers.b) - velocity_at(bodies.a, levers.a);
+    std::int64_t wanted[2];
+    for (int t = 0; t < 2; ++t) {
+        const std::int64_t along = fixed::dot(contact.directions[1 + t], slip);
+        wanted[t] = -divide(bounded(along, greatest_given), rows.inverses[1 + t]);
+    }
+    const std::int64_t most = fixed::multiply_shift(normal, contact.dynamic_friction, 18);
+    fixed::NormalisedVector size{};
+    if (fixed::normalise(fixed::Vec3{wanted[0], wanted[1], 0}, size) && size.length > most) {
+        wanted[0] = fixed::scale_component(size.direction.x, most);
+        wanted[1] = fixed::scale_component(size.direction.y, most);
+    }
+    accelerate(contact, rows, 1, wanted[0], bodies);
+    accelerate(contact, rows, 2, wanted[1], bodies);
 }
 
 bool has_struck(const ContactPoint& point, std::int64_t least_approach) {
@@ -66,6 +85,7 @@ public:
         }
         constexpr int most_rounds = 16;
         for (int round = 0; round < most_rounds && give_each(); ++round) {}
+        rub_each();
     }
 
 private:
@@ -92,7 +112,7 @@ private:
         const std::int64_t speed = sum / static_cast<std::int64_t>(count_);
         if (speed > 0) {
             const std::int64_t p = divide(speed, contact_.middle.inverses[normal_row]);
-            accelerate(contact_, contact_.middle, p, bodies_);
+            accelerate(contact_, contact_.middle, normal_row, p, bodies_);
             for (std::uint32_t i = 0; i < count_; ++i) {
                 points_[i].given = p / count_;
             }
@@ -114,13 +134,23 @@ private:
             const std::int64_t most = point.struck ? most_given : 0;
             const std::int64_t p = std::clamp(wanted, point.least, most) - point.given;
             if (p != 0) {
-                accelerate(contact_, rows, p, bodies_);
+                accelerate(contact_, rows, normal_row, p, bodies_);
                 point.given += p;
                 contact_.given_speed = fixed::saturating_add(contact_.given_speed, p);
                 more = more || !within(speed, little);
             }
         }
         return more;
+    }
+
+    // What pushed in the substep rubbed then.
+    void rub_each() {
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const Point& point = points_[i];
+            if (point.given > 0) {
+                rub(contact_, contact_.points[point.index].rows, point.levers, point.given, bodies_);
+            }
+        }
     }
 
     Contact& contact_;
@@ -143,11 +173,12 @@ bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach,
         return false;
     }
     ContactRows rows;
-    fill_rows(contact, bodies, levers, 1, rows);
+    fill_rows(contact, bodies, levers, 3, rows);
     const std::int64_t back = fixed::multiply_shift(approach, contact.restitution, world_fraction_bits);
     const std::int64_t p = divide(bounded(approach + back, greatest_given), rows.inverses[normal_row]);
     contact.given_speed = fixed::saturating_add(contact.given_speed, p);
-    accelerate(contact, rows, p, bodies);
+    accelerate(contact, rows, normal_row, p, bodies);
+    rub(contact, rows, levers, p, bodies);
     return true;
 }
 

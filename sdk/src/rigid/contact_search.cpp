@@ -356,7 +356,7 @@ private:
                 }
                 FoundContact found;
                 found.key = {a, other, i * LKS_MAX_BODY_SHAPES + j};
-                if (touches(piece(a, i), piece_b, way, spins, found)) {
+                if (touches(piece(a, i), piece_b, way, spins, body_a.jointed || body_b.jointed, found)) {
                     use(found);
                 }
             }
@@ -393,8 +393,21 @@ private:
                            [](const ManifoldPoint& point) { return point.separation < -sticking_depth; });
     }
 
+    static bool is_round(const Piece& piece) {
+        return piece.kind == LKS_SHAPE_SPHERE || piece.kind == LKS_SHAPE_CAPSULE;
+    }
+    // Whether the way that round surfaces push each other turns by more than a 64th in this tick. Balls
+    // that pass each other off centre would part as if they had met where the tick began: 5° astray at 5 m/s.
+    static bool normal_turns(const Piece& a, const Piece& b, const Manifold& manifold, const Vec3& way) {
+        if (!is_round(a) || !is_round(b)) {
+            return false;
+        }
+        const Vec3 aside = way - fixed::scale(manifold.normal, fixed::dot(manifold.normal, way));
+        return sum_of_magnitudes(aside) > (a.radius + b.radius) / 64;
+    }
+
     // `way`: of b against a in this tick, `spins`: how far they turn each other's points at most.
-    static bool touches(const Piece& a, const Piece& b, const Vec3& way, std::int64_t spins,
+    static bool touches(const Piece& a, const Piece& b, const Vec3& way, std::int64_t spins, bool jointed,
                         FoundContact& found) {
         const std::int64_t motion = sum_of_magnitudes(way) + spins;
         // One look a tick is enough where neither passes the other's middle in it, and where what is inside
@@ -409,7 +422,8 @@ private:
         const bool unclear = fast && found.manifold.count == 0;
         drop_what_stays_apart(found.manifold, way, spins);
         found.fast = fast;
-        found.every_substep = fast || sticks(found.manifold);
+        found.every_substep =
+            fast || sticks(found.manifold) || (!jointed && normal_turns(a, b, found.manifold, way));
         return found.manifold.count != 0 || unclear;
     }
 

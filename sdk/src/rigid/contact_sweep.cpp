@@ -69,19 +69,30 @@ void project_normal(const Contact& contact, ContactPoint& point, ContactMoves& m
     push(contact, point.rows, normal_row, more, moves);
 }
 
+// Whether a point slides, and not only gives way: friction's dynamic coefficient counts then. All points of a
+// box on a slope bear what they can before it slides; as its lower edge bears more of it, its upper one is at
+// its limit long before, and must keep what it has there.
+bool slides(const ContactPoint& point, std::int64_t slow_slip) {
+    fixed::NormalisedVector slip{};
+    return fixed::normalise(Vec3{point.slip[0], point.slip[1], 0}, slip) && slip.length > slow_slip;
+}
+
 // Both rows across the normal at once, within the circle that the normal's push allows.
-void project_friction(const Contact& contact, ContactPoint& point, ContactMoves& moves) {
+void project_friction(const Contact& contact, ContactPoint& point, ContactMoves& moves,
+                      std::int64_t slow_slip) {
     std::int64_t wanted[2];
     for (int t = 0; t < 2; ++t) {
         const std::int64_t slip = point.slip[t] + moved_along(contact, point.rows, 1 + t, moves);
         wanted[t] = point.push.across[t] - divide(slip, point.rows.inverses[1 + t]);
     }
-    const std::int64_t most = grip(point.push.normal, contact.static_friction);
+    std::int64_t most = grip(point.push.normal, contact.dynamic_friction);
     fixed::NormalisedVector size{};
     if (fixed::normalise(Vec3{wanted[0], wanted[1], 0}, size) && size.length > most) {
-        const std::int64_t sliding = grip(point.push.normal, contact.dynamic_friction);
-        wanted[0] = fixed::scale_component(size.direction.x, sliding);
-        wanted[1] = fixed::scale_component(size.direction.y, sliding);
+        if (!slides(point, slow_slip)) {
+            most = std::min(size.length, grip(point.push.normal, contact.static_friction));
+        }
+        wanted[0] = fixed::scale_component(size.direction.x, most);
+        wanted[1] = fixed::scale_component(size.direction.y, most);
     }
     for (int t = 0; t < 2; ++t) {
         const std::int64_t more = wanted[t] - point.push.across[t];
@@ -128,7 +139,7 @@ bool closes(const Contact& contact, const ContactBodies& bodies, std::int64_t di
     });
 }
 
-void project(Contact& contact, ContactMoves moves, bool back) {
+void project(Contact& contact, ContactMoves moves, bool back, std::int64_t slow_slip) {
     if (contact.active_count > 1) {
         project_middle(contact, moves);
     }
@@ -139,7 +150,7 @@ void project(Contact& contact, ContactMoves moves, bool back) {
         }
         project_normal(contact, point, moves);
         if (point.push.normal != 0 || point.push.across[0] != 0 || point.push.across[1] != 0) {
-            project_friction(contact, point, moves);
+            project_friction(contact, point, moves, slow_slip);
         }
     }
 }

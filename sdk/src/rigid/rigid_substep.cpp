@@ -35,11 +35,13 @@ Object& coupled_object(lks_world& world, std::uint32_t index) {
 
 RigidSubstep::RigidSubstep(lks_world& world, Team* team)
     : world_(world), scene_(world.rigid), team_(team), rate_(world.rate) {
-    // What a substep of gravity alone gives a body is no impact.
+    // What a substep of gravity alone gives a body is no impact, and no sliding.
     const fixed::Vec3& g = world.gravity;
     const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
-    least_approach_ = 4 * ((size(g.x) + size(g.y) + size(g.z)) / rate_.substeps_per_second) +
-                      (std::int64_t{1} << world_fraction_bits) / 100;
+    constexpr std::int64_t slow = (std::int64_t{1} << world_fraction_bits) / 100; // m/s
+    const std::int64_t gravity_speed = (size(g.x) + size(g.y) + size(g.z)) / rate_.substeps_per_second;
+    least_approach_ = 4 * gravity_speed + slow;
+    slow_slip_ = (gravity_speed + slow) / rate_.substeps_per_second;
     for (const Contact& contact : scene_.contacts) {
         any_restitution_ = any_restitution_ || contact.restitution != 0;
     }
@@ -160,6 +162,9 @@ void RigidSubstep::begin(std::uint32_t substep) {
     });
     in_figures([this](const FigureRange& figure) {
         for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::begin_substep(joint, a, b); });
+    });
+    for_each_attachment(world_, [this](Attachment& attachment, const AttachmentSides& sides) {
+        measure_left(attachment, sides, rate_);
     });
 }
 
@@ -283,7 +288,7 @@ Move& RigidSubstep::move_of(std::uint32_t other) {
 void RigidSubstep::project_contact(std::uint32_t index, bool back) {
     if (scene_.acts(index)) {
         Contact& contact = scene_.contacts[index];
-        project(contact, {move_of(contact.key.body_a), move_of(contact.key.other)}, back);
+        project(contact, {move_of(contact.key.body_a), move_of(contact.key.other)}, back, slow_slip_);
     }
 }
 

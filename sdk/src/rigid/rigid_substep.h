@@ -81,6 +81,7 @@ private:
     Team* team_;
     MotionRate rate_;
     std::int64_t least_approach_;
+    std::int64_t slow_slip_; // of a substep
     bool any_restitution_ = false;
 };
 

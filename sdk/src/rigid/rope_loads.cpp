@@ -123,12 +123,12 @@ public:
             const fixed::Direction n = end_direction(object_, load.particle);
             if (load.motion > 0 && !is_none(n)) {
                 // The rope holds back what has moved away from it, and follows what has moved otherwise.
-                const std::int64_t away = -fixed::dot(n, attachment_offset(attachment, sides));
+                const std::int64_t away = -fixed::dot(n, attachment_error(attachment, sides));
                 if (away > 0) {
                     shift_body(attachment, fixed::scale(n, divide(away, invert(load.motion))));
                 }
             }
-            follow(object_, load.particle, attachment_offset(attachment, sides));
+            follow(object_, load.particle, attachment_error(attachment, sides));
         });
     }
 
