@@ -34,7 +34,7 @@ typedef struct lks_bone {
     lks_fixed angular_damping;    /* N·m·s */
     lks_fixed limit_compliance;   /* rad/(N·m) */
     lks_fixed limit_damping;      /* N·m·s */
-    lks_fixed friction;           /* N·m */
+    lks_fixed friction;           /* N·m; for the same looks at another scale, times its fourth power */
     /* At scale 1. Forces go with the cube of the scale, as weights do, and torques with its fourth power: a
      * figure of any size bears as many times its own weight. */
     lks_fixed break_force;  /* N, 0 .. 8000000: where it bears more the bone comes off; 0: never */
