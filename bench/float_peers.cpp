@@ -37,25 +37,25 @@ float fall_of(const Workload& workload) {
 // Whether a kernel comes in ten passes to what double precision comes to.
 void demand_right(const FloatRuns& cloth, const FloatKernel& kernel) {
     FloatRuns work = cloth;
+    std::vector<double> x, y, z;
     // A little out of place, so that there is something to correct.
     for (std::uint32_t i = 0; i < work.count; ++i) {
         const float jitter = 1e-3f * static_cast<float>(i * 2654435761u >> 24) / 256.0f;
-        work.x[i] += jitter;
-        work.y[i] -= jitter;
-        work.z[i] += jitter;
+        const Point rest = place_of(cloth, i);
+        put(work, i, {rest.x + jitter, rest.y - jitter, rest.z + jitter});
+        const Point place = place_of(work, i);
+        x.push_back(place.x), y.push_back(place.y), z.push_back(place.z);
     }
-    std::vector<double> x(work.x.begin(), work.x.end());
-    std::vector<double> y(work.y.begin(), work.y.end());
-    std::vector<double> z(work.z.begin(), work.z.end());
     for (int pass = 0; pass < 10; ++pass) {
         kernel.project(work);
         project_double(cloth, x, y, z);
     }
     double worst = 0;
-    for (std::size_t i = 0; i < work.count; ++i) {
-        worst = std::fmax(worst, std::abs(x[i] - static_cast<double>(work.x[i])));
-        worst = std::fmax(worst, std::abs(y[i] - static_cast<double>(work.y[i])));
-        worst = std::fmax(worst, std::abs(z[i] - static_cast<double>(work.z[i])));
+    for (std::uint32_t i = 0; i < work.count; ++i) {
+        const Point place = place_of(work, i);
+        worst = std::fmax(worst, std::abs(x[i] - place.x));
+        worst = std::fmax(worst, std::abs(y[i] - place.y));
+        worst = std::fmax(worst, std::abs(z[i] - place.z));
     }
     if (!(worst < 1e-5)) {
         std::fprintf(stderr, "lockstitch: the benchmark's %s is %g m from what double precision comes to.\n",
@@ -67,10 +67,7 @@ void demand_right(const FloatRuns& cloth, const FloatKernel& kernel) {
 void demand_masses(const lks_asset& asset, const FloatKernel& kernel) {
     FloatRuns body = make_float_runs(asset, {});
     for (std::uint32_t i = 0; i < body.count; ++i) {
-        const Point place = out_of_place({body.x[i], body.y[i], body.z[i]});
-        body.x[i] = static_cast<float>(place.x);
-        body.y[i] = static_cast<float>(place.y);
-        body.z[i] = static_cast<float>(place.z);
+        put(body, i, out_of_place(place_of(body, i)));
     }
     const std::vector<Point> before = points_of(body);
     kernel.project(body);

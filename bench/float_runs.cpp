@@ -1,9 +1,35 @@
 #include "float_runs.h"
 
+#include "float_rows_lanes.h"
 #include "float_runs_lanes.h"
 #include "masses.h"
+#include "memory_count.h"
 
 namespace lks_bench {
+namespace {
+
+Floats rows_of(const Floats& x, const Floats& y, const Floats& z) {
+    Floats rows;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        rows.insert(rows.end(), {x[i], y[i], z[i], 0.0f});
+    }
+    return rows;
+}
+
+void put_in_rows(FloatRuns& cloth) {
+    cloth.rows = rows_of(cloth.x, cloth.y, cloth.z);
+    cloth.rows[float_row * cloth.count] = 0; // away from the next one
+    cloth.start_rows = cloth.rows;
+    cloth.moving_rows = rows_of(cloth.moving, cloth.moving, cloth.moving);
+    for (const lks::Constraint& ends : cloth.constraints) {
+        cloth.places.push_back({float_row * ends.a, float_row * ends.b});
+    }
+    for (Floats* axis : {&cloth.x, &cloth.y, &cloth.z}) {
+        axis->clear();
+    }
+}
+
+} // namespace
 
 FloatRuns make_float_runs(const lks_asset& asset, const std::vector<std::uint32_t>& pinned_vertices) {
     constexpr float metre = 1.0f / 72057594037927936.0f; // 2^-56
@@ -34,38 +60,61 @@ FloatRuns make_float_runs(const lks_asset& asset, const std::vector<std::uint32_
         FloatBatch& made = cloth.batches.emplace_back();
         made.runs.assign(asset.runs.data() + batch.first_run,
                          asset.runs.data() + batch.first_run + batch.run_count);
-        for (std::uint32_t i = batch.first_single; i < batch.first + batch.count; ++i) {
-            made.singles.push_back(i);
-        }
-        for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
+        made.first = batch.first;
+        made.first_single = batch.first_single;
+        made.end = batch.first + batch.count;
+        for (std::uint32_t i = batch.first; i < made.end; ++i) {
             made.equal_shares = made.equal_shares && cloth.shares_a[i] == cloth.shares_b[i];
         }
     }
-    for (std::vector<float>* values :
-         {&cloth.x, &cloth.y, &cloth.z, &cloth.rests, &cloth.shares_a, &cloth.shares_b}) {
+    for (Floats* values : {&cloth.x, &cloth.y, &cloth.z, &cloth.rests, &cloth.shares_a, &cloth.shares_b}) {
         values->resize(values->size() + padding, 1.0f);
     }
     cloth.moving.resize(cloth.moving.size() + padding, 0.0f);
     cloth.count = asset.vertex_count();
+    if (share_in_runs(asset) < 0.5) {
+        put_in_rows(cloth);
+    }
     cloth.start_x = cloth.x;
     cloth.start_y = cloth.y;
     cloth.start_z = cloth.z;
     return cloth;
 }
 
+Point place_of(const FloatRuns& cloth, std::uint32_t particle) {
+    if (is_in_rows(cloth)) {
+        const float* row = cloth.rows.data() + float_row * particle;
+        return {row[0], row[1], row[2]};
+    }
+    return {cloth.x[particle], cloth.y[particle], cloth.z[particle]};
+}
+
+void put(FloatRuns& cloth, std::uint32_t particle, const Point& place) {
+    const auto x = static_cast<float>(place.x);
+    const auto y = static_cast<float>(place.y);
+    const auto z = static_cast<float>(place.z);
+    if (is_in_rows(cloth)) {
+        float* row = cloth.rows.data() + float_row * particle;
+        row[0] = x, row[1] = y, row[2] = z;
+    } else {
+        cloth.x[particle] = x, cloth.y[particle] = y, cloth.z[particle] = z;
+    }
+}
+
 void lay_level(FloatRuns& cloth) {
-    cloth.y.swap(cloth.z);
-    for (float& y : cloth.y) {
-        y = -y;
+    for (std::uint32_t particle = 0; particle < cloth.count; ++particle) {
+        const Point upright = place_of(cloth, particle);
+        put(cloth, particle, {upright.x, -upright.z, upright.y});
     }
     cloth.start_y = cloth.y;
     cloth.start_z = cloth.z;
+    cloth.start_rows = cloth.rows;
 }
 
 std::vector<Point> points_of(const FloatRuns& cloth) {
     std::vector<Point> found(cloth.vertices.size());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        found[cloth.vertices[i]] = {cloth.x[i], cloth.y[i], cloth.z[i]};
+    for (std::uint32_t particle = 0; particle < cloth.count; ++particle) {
+        found[cloth.vertices[particle]] = place_of(cloth, particle);
     }
     return found;
 }
@@ -88,29 +137,44 @@ void project_double(const FloatRuns& cloth, std::vector<double>& x, std::vector<
 namespace {
 
 void project_scalar(FloatRuns& cloth) {
+    if (is_in_rows(cloth)) {
+        for (std::uint32_t i = 0; i < cloth.constraints.size(); ++i) {
+            project_one_in_rows(cloth, i);
+        }
+        return;
+    }
     for (const FloatBatch& batch : cloth.batches) {
         for (const lks::Run& run : batch.runs) {
             for (std::uint32_t i = 0; i < run.count; ++i) {
                 project_one(cloth, run.first + i, run.a + i, run.b + i);
             }
         }
-        for (const std::uint32_t i : batch.singles) {
+        for (std::uint32_t i = batch.first_single; i < batch.end; ++i) {
             project_one(cloth, i, cloth.constraints[i].a, cloth.constraints[i].b);
         }
     }
 }
 
+void push_out_one(const FloatSphere& sphere, float moving, float& px, float& py, float& pz) {
+    const float x = px - sphere.x;
+    const float y = py - sphere.y;
+    const float z = pz - sphere.z;
+    const float square = x * x + y * y + z * z;
+    if (square < sphere.radius * sphere.radius && square > 0) {
+        const float factor = moving * (sphere.radius / __builtin_sqrtf(square) - 1);
+        px += x * factor;
+        py += y * factor;
+        pz += z * factor;
+    }
+}
+
 void push_out_scalar(FloatRuns& cloth, const FloatSphere& sphere) {
     for (std::uint32_t i = 0; i < cloth.count; ++i) {
-        const float x = cloth.x[i] - sphere.x;
-        const float y = cloth.y[i] - sphere.y;
-        const float z = cloth.z[i] - sphere.z;
-        const float square = x * x + y * y + z * z;
-        if (square < sphere.radius * sphere.radius && square > 0) {
-            const float factor = cloth.moving[i] * (sphere.radius / __builtin_sqrtf(square) - 1);
-            cloth.x[i] += x * factor;
-            cloth.y[i] += y * factor;
-            cloth.z[i] += z * factor;
+        if (is_in_rows(cloth)) {
+            float* row = cloth.rows.data() + float_row * i;
+            push_out_one(sphere, cloth.moving[i], row[0], row[1], row[2]);
+        } else {
+            push_out_one(sphere, cloth.moving[i], cloth.x[i], cloth.y[i], cloth.z[i]);
         }
     }
 }

@@ -1,6 +1,9 @@
 // float_runs.h over lanes: V has `width` of them.
 #pragma once
 
+#include <type_traits>
+
+#include "float_rows_lanes.h"
 #include "float_runs.h"
 
 namespace lks_bench {
@@ -34,12 +37,7 @@ inline void project_group(FloatRuns& cloth, std::uint32_t i, std::uint32_t a, st
     const R xb = V::load(px + b), yb = V::load(py + b), zb = V::load(pz + b);
     const R x = V::subtract(xa, xb), y = V::subtract(ya, yb), z = V::subtract(za, zb);
     const R u = V::multiply_add(x, x, V::multiply_add(y, y, V::multiply(z, z)));
-    // y0·(3/2 − u/2·y0²)
-    const R y0 = V::reciprocal_sqrt_estimate(u);
-    const R half_u = V::multiply(u, V::set(-0.5f));
-    const R inverse = V::multiply(y0, V::multiply_add(V::multiply(half_u, y0), y0, V::set(1.5f)));
-    const R ratio = V::least(V::multiply(V::load(cloth.rests.data() + i), inverse), V::set(2.0f));
-    R f = V::subtract(ratio, V::set(1.0f));
+    R f = factors_of<V>(V::load(cloth.rests.data() + i), u);
     if constexpr (!whole) {
         f = V::first(f, count);
     }
@@ -59,29 +57,42 @@ inline void project_group(FloatRuns& cloth, std::uint32_t i, std::uint32_t a, st
     V::store(pz + b, V::subtract(zb, cz));
 }
 
+// A run from its constraint i on.
 template <typename V, bool equal_shares>
-inline void project_batch(FloatRuns& cloth, const FloatBatch& batch) {
-    for (const lks::Run& run : batch.runs) {
-        std::uint32_t i = 0;
-        for (; i + V::width <= run.count; i += V::width) {
-            project_group<V, equal_shares, true>(cloth, run.first + i, run.a + i, run.b + i, V::width);
-        }
-        const std::uint32_t left = run.count - i;
-        if (left != 0 && left + run.spare >= V::width) {
-            project_group<V, equal_shares, false>(cloth, run.first + i, run.a + i, run.b + i, left);
-            continue;
-        }
+inline void project_run(FloatRuns& cloth, const lks::Run& run, std::uint32_t i) {
+    for (; i + V::width <= run.count; i += V::width) {
+        project_group<V, equal_shares, true>(cloth, run.first + i, run.a + i, run.b + i, V::width);
+    }
+    const std::uint32_t left = run.count - i;
+    if (left != 0 && left + run.spare >= V::width) {
+        project_group<V, equal_shares, false>(cloth, run.first + i, run.a + i, run.b + i, left);
+        return;
+    }
+    if constexpr (std::is_void_v<typename V::Narrower>) {
         for (; i < run.count; ++i) {
             project_one(cloth, run.first + i, run.a + i, run.b + i);
         }
+    } else {
+        project_run<typename V::Narrower, equal_shares>(cloth, run, i);
     }
-    for (const std::uint32_t i : batch.singles) {
+}
+
+template <typename V, bool equal_shares>
+inline void project_batch(FloatRuns& cloth, const FloatBatch& batch) {
+    for (const lks::Run& run : batch.runs) {
+        project_run<V, equal_shares>(cloth, run, 0);
+    }
+    for (std::uint32_t i = batch.first_single; i < batch.end; ++i) {
         project_one(cloth, i, cloth.constraints[i].a, cloth.constraints[i].b);
     }
 }
 
 template <typename V>
 inline void project_all(FloatRuns& cloth) {
+    if (is_in_rows(cloth)) {
+        project_rows<typename V::OfRows>(cloth);
+        return;
+    }
     for (const FloatBatch& batch : cloth.batches) {
         if (batch.equal_shares) {
             project_batch<V, true>(cloth, batch);
@@ -101,6 +112,10 @@ inline void predict_axis(float* x, float* start, const float* moving, std::size_
 }
 
 inline void predict_all(FloatRuns& cloth, float fall) {
+    if (is_in_rows(cloth)) {
+        predict_rows(cloth, fall);
+        return;
+    }
     const std::size_t count = cloth.count;
     predict_axis(cloth.x.data(), cloth.start_x.data(), cloth.moving.data(), count, 0);
     predict_axis(cloth.y.data(), cloth.start_y.data(), cloth.moving.data(), count, fall);
@@ -110,6 +125,10 @@ inline void predict_all(FloatRuns& cloth, float fall) {
 template <typename V>
 inline void push_out_all(FloatRuns& cloth, const FloatSphere& sphere) {
     using R = typename V::Register;
+    if (is_in_rows(cloth)) {
+        push_out_rows<typename V::OfRows>(cloth, sphere);
+        return;
+    }
     for (std::uint32_t i = 0; i < cloth.count; i += V::width) {
         float* const px = cloth.x.data() + i;
         float* const py = cloth.y.data() + i;
@@ -119,14 +138,7 @@ inline void push_out_all(FloatRuns& cloth, const FloatSphere& sphere) {
         const R y = V::subtract(y0, V::set(sphere.y));
         const R z = V::subtract(z0, V::set(sphere.z));
         const R u = V::multiply_add(x, x, V::multiply_add(y, y, V::multiply(z, z)));
-        const R estimate = V::reciprocal_sqrt_estimate(u);
-        const R half_u = V::multiply(u, V::set(-0.5f));
-        const R inverse =
-            V::multiply(estimate, V::multiply_add(V::multiply(half_u, estimate), estimate, V::set(1.5f)));
-        // Outside the ratio is below one.
-        const R ratio = V::multiply(V::set(-sphere.radius), inverse);
-        const R inside = V::multiply(V::least(V::add(ratio, V::set(1.0f)), V::set(0.0f)),
-                                     V::load(cloth.moving.data() + i));
+        const R inside = V::multiply(inside_of<V>(u, sphere.radius), V::load(cloth.moving.data() + i));
         V::store(px, V::subtract(x0, V::multiply(x, inside)));
         V::store(py, V::subtract(y0, V::multiply(y, inside)));
         V::store(pz, V::subtract(z0, V::multiply(z, inside)));
