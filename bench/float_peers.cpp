@@ -51,13 +51,16 @@ void demand_right(const FloatRuns& cloth, const FloatKernel& kernel) {
         project_double(cloth, x, y, z);
     }
     double worst = 0;
+    double sum = 0; // not a number where one is not, which a maximum would pass over
     for (std::uint32_t i = 0; i < work.count; ++i) {
         const Point place = place_of(work, i);
-        worst = std::fmax(worst, std::abs(x[i] - place.x));
-        worst = std::fmax(worst, std::abs(y[i] - place.y));
-        worst = std::fmax(worst, std::abs(z[i] - place.z));
+        for (const double off : {x[i] - place.x, y[i] - place.y, z[i] - place.z}) {
+            worst = std::fmax(worst, std::abs(off));
+            sum += off;
+        }
     }
-    if (!(worst < 1e-5)) {
+    // Rounding brings up to 3e-7, a constraint left out at the end of each batch 1e-5.
+    if (!(worst < 1e-6) || std::isnan(sum)) {
         std::fprintf(stderr, "lockstitch: the benchmark's %s is %g m from what double precision comes to.\n",
                      kernel.name, worst);
         std::exit(1);
