@@ -49,6 +49,7 @@ public:
         push = in_tree ? Vec{} : push;
         begin_ = offset(body_a, body_b);
         start = keeps_push() ? begin_ : Vec{};
+        distance_.begin(body_a, body_a.rotation * point_a_, body_b, body_b.rotation * point_b_, begin_, push);
         turn_start_ = keeps_turn() ? turned_apart(body_a, body_b) : Vec{};
         limits.begin(body_a, body_b);
         drive_.begin(body_a, body_b);
@@ -194,7 +195,10 @@ public:
     }
     // The same of its points.
     void undo_points(Body& body_a, Body& body_b) const {
-        if (keeps_push()) {
+        if (is_distance()) {
+            distance_.undo(body_a, body_a.rotation * point_a_, body_b, body_b.rotation * point_b_,
+                           offset(body_a, body_b));
+        } else if (keeps_push()) {
             push_apart(body_a, body_b, points_.pushed_by(offset(body_a, body_b)) * Scalar(-1));
         }
     }

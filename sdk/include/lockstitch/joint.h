@@ -8,7 +8,11 @@
  *             a twist means nothing, its limits give way)
  *   hinge     the points and the axes stay together; b turns against a from twist_min to twist_max
  *   fixed     nothing moves
- *   distance  the points stay from distance_min to distance_max apart
+ *   distance  the points stay from distance_min to distance_max apart. A joint without compliance that is
+ *             made, or whose body is put, beyond these brings them back without giving speed, by up to half a
+ *             metre a substep, and what that takes is no load: a joint that is made anew each tick with a
+ *             shorter distance_max is a winch, which lifts with the weight of what hangs on it; what it lifts
+ *             has no speed of its own from that
  *
  * Joints are not checked against each other: what two of them hold at places apart comes to rest at one of
  * them, or between.
@@ -84,7 +88,7 @@ typedef struct lks_motor {
 LKS_API lks_joint_def lks_default_joint_def(void);
 
 /* Takes the lowest free index; joints are solved in the order of their indices, before contacts. Both bodies
- * are left where they are: what is apart is pulled together from the next tick on. */
+ * are left where they are: what is apart is brought together from the next tick on. */
 LKS_API lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_joint_id* joint);
 LKS_API lks_result lks_world_remove_joint(lks_world* world, lks_joint_id joint);
 LKS_API uint32_t lks_world_has_joint(const lks_world* world, lks_joint_id joint);

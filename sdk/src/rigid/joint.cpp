@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
+#include "rigid/joint_distance.h"
 #include "rigid/joint_drive.h"
 #include "rigid/joint_frames.h"
 #include "rigid/joint_limits.h"
@@ -16,7 +17,7 @@ using fixed::Vec3;
 
 // Soft joints and distances begin each substep anew, as XPBD has them.
 bool keeps_push(const Joint& joint) {
-    return joint.description.kind != LKS_JOINT_DISTANCE && joint.constants.points.softness == 0 &&
+    return !is_distance(joint) && joint.constants.points.softness == 0 &&
            joint.constants.angular_softness == 0;
 }
 
@@ -27,15 +28,14 @@ void push_apart(const Joint& joint, Body& a, Body& b, const Vec3& p) {
 
 // Trees solve the points of their joints; motors bring them together within their rounds all the same.
 bool needs_block(const Joint& joint) {
-    return joint.description.kind != LKS_JOINT_DISTANCE &&
-           (!joint.in_tree || joint.description.motor_torque != 0);
+    return !is_distance(joint) && (!joint.in_tree || joint.description.motor_torque != 0);
 }
 
 // Friction, or a motor, begins with what held the load in the substep before, which turns the bodies about
 // their centres; what holds the points of a soft joint begins from nothing. Until it has pushed, that turn
 // looks like one to be stopped, and the joint would let go in each substep of what it holds.
 bool drives_before_points(const Joint& joint) {
-    return joint.constants.grip != 0 && !keeps_push(joint) && joint.description.kind != LKS_JOINT_DISTANCE;
+    return joint.constants.grip != 0 && !keeps_push(joint) && !is_distance(joint);
 }
 
 // How far such a turn moves a point, to first order.
@@ -75,49 +75,6 @@ void project_points(Joint& joint, Body& a, Body& b) {
     push_apart(joint, a, b, joint.push - before);
 }
 
-// The points at a distance: a row along the way between them.
-void project_distance(Joint& joint, Body& a, Body& b) {
-    const JointDescription& d = joint.description;
-    fixed::NormalisedVector way{};
-    const Vec3 offset = joint_offset(joint, a, b);
-    if (!fixed::normalise(offset, way)) {
-        way = {{direction_one, 0, 0}, 0}; // one in the other: any direction
-    }
-    const bool rod = d.distance_min == d.distance_max;
-    // What the push along the way was, and what it may be: it holds back, or off.
-    std::int64_t pushed = fixed::dot(way.direction, joint.push);
-    std::int64_t error = 0;
-    bool pulls = false;
-    if (way.length > d.distance_max || (pushed < 0 && !rod)) {
-        error = way.length - d.distance_max;
-        pulls = true;
-    } else if (way.length < d.distance_min || (pushed > 0 && !rod)) {
-        error = way.length - d.distance_min;
-    } else if (!rod) {
-        joint.push = {0, 0, 0};
-        return;
-    }
-    std::int64_t weight = joint.constants.points.softness;
-    const Vec3 lever_a = fixed::rotate(a.rotation, d.point_a);
-    const Vec3 lever_b = fixed::rotate(b.rotation, d.point_b);
-    const RowSide side_a = push_side(a, joint.constants.shares.a, way.direction, lever_a, weight);
-    const RowSide side_b = push_side(b, joint.constants.shares.b, way.direction, lever_b, weight);
-    const std::int64_t motion = fixed::dot(way.direction, offset - joint.begin);
-    const std::int64_t most = greatest_step_of(joint.constants.points);
-    const std::int64_t left = std::clamp(soften(joint.constants.points, error, motion, pushed), -most, most);
-    std::int64_t p = -divide(left, invert(weight));
-    if (!rod) {
-        // A rope only pulls, a strut only pushes.
-        const std::int64_t total =
-            pulls ? std::min<std::int64_t>(pushed + p, 0) : std::max<std::int64_t>(pushed + p, 0);
-        p = total - pushed;
-    }
-    joint.push = fixed::scale(way.direction, pushed + p);
-    const Vec3 along = fixed::scale(way.direction, p);
-    push(a, side_a, along, p, -1);
-    push(b, side_b, along, p, 1);
-}
-
 } // namespace
 
 Vec3 joint_offset(const Joint& joint, const Body& a, const Body& b) {
@@ -140,6 +97,9 @@ void forget_pushes(Joint& joint) {
 void begin_substep(Joint& joint, const Body& a, const Body& b) {
     joint.begin = joint_offset(joint, a, b);
     joint.start = keeps_push(joint) ? joint.begin : Vec3{0, 0, 0};
+    if (is_distance(joint)) {
+        begin_distance(joint, a, b);
+    }
     if (joint.in_tree) {
         joint.tension = sum_of_magnitudes(joint.push);
         joint.push = {0, 0, 0};
@@ -176,7 +136,7 @@ void carry_pushes_on(Joint& joint, Body& a, Body& b) {
         return;
     }
     carry_drive_on(joint, a, b);
-    if (joint.description.kind != LKS_JOINT_DISTANCE && !joint.in_tree) {
+    if (!is_distance(joint) && !joint.in_tree) {
         push_apart(joint, a, b, joint.push);
     }
 }
@@ -214,7 +174,9 @@ void add_up_pushes(Joint& joint, const Body& a, const Body& b) {
 bool undo_error(const Joint& joint, Body& a, Body& b) {
     undo_turn(joint, a, b);
     const bool far_off = undo_limits(joint, a, b);
-    if (keeps_push(joint) && !joint.in_tree) {
+    if (is_distance(joint)) {
+        undo_distance(joint, a, b);
+    } else if (keeps_push(joint) && !joint.in_tree) {
         Vec3 error = joint_offset(joint, a, b);
         clamp_vector(error, greatest_step);
         push_apart(joint, a, b, -solve(joint.inverse, error));
@@ -243,7 +205,7 @@ void project(Joint& joint, Body& a, Body& b) {
     project_drive(joint, a, b);
     project_turn(joint, a, b);
     project_limits(joint, a, b);
-    if (joint.description.kind == LKS_JOINT_DISTANCE) {
+    if (is_distance(joint)) {
         project_distance(joint, a, b);
     } else if (!joint.in_tree) {
         project_points(joint, a, b);

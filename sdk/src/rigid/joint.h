@@ -131,6 +131,7 @@ struct Joint : JointState {
     std::int64_t tension;        // how much it pushed in the one before, or since: World
     fixed::Vec3 begin;           // how far the points were apart at its beginning
     fixed::Vec3 start;           // what of it is to be kept
+    std::int64_t kept_error;     // what of it a distance joint keeps: along the way, World
     fixed::Vec3 turn_start;      // how far a hinge's or a fixed joint's frames are turned at its beginning
     fixed::Vec3 drag;            // what angular damping turned
     fixed::Direction swing_axis; // about which b has swung where its limit pushes
