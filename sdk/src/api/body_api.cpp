@@ -8,6 +8,7 @@
 #include "collide/saturation.h"
 #include "rigid/body_motion.h"
 #include "rigid/contact_memory.h"
+#include "rigid/contact_search.h"
 #include "rigid/make_body.h"
 #include "rigid/sleep.h"
 
@@ -24,11 +25,10 @@ bool reserve_slot(lks_world& world, std::uint32_t index) {
 }
 
 void forget_joints(RigidScene& scene, std::uint32_t body) {
+    wake_jointed(scene, body);
     for (std::uint32_t i = 0; i < scene.joints.size(); ++i) {
         const JointDescription& joint = scene.joints[i].description;
         if (scene.joint_slots[i].used && (joint.body_a == body || joint.body_b == body)) {
-            wake(scene.bodies[joint.body_a]);
-            wake(scene.bodies[joint.body_b]);
             scene.free_joint(i);
         }
     }
@@ -40,6 +40,7 @@ void change_kind(lks_world& world, std::uint32_t index, std::uint32_t kind) {
     RigidScene& scene = world.rigid;
     Body& body = scene.bodies[index];
     wake_neighbours(scene, index);
+    wake_jointed(scene, index);
     forget_contacts(scene, index);
     scene.definitions[index].kind = kind;
     scene.descriptions[index].kind = kind;
@@ -59,8 +60,6 @@ void change_kind(lks_world& world, std::uint32_t index, std::uint32_t kind) {
         Joint& joint = scene.joints[i];
         const JointDescription& d = joint.description;
         if (scene.joint_slots[i].used && (d.body_a == index || d.body_b == index)) {
-            wake(scene.bodies[d.body_a]);
-            wake(scene.bodies[d.body_b]);
             joint.constants =
                 make_joint_constants(d, scene.bodies[d.body_a], scene.bodies[d.body_b], world.rate);
             forget_pushes(joint);
@@ -137,6 +136,7 @@ lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_bod
     scene.descriptions[index] = describe_body(scene.definitions[index]);
     scene.bodies[index] = make_body(scene.descriptions[index], *def);
     scene.body_slots[index].used = true;
+    wake_touched(*world, index);
     *body = {index, scene.body_slots[index].generation};
     return LKS_OK;
 }
@@ -189,10 +189,12 @@ lks_result lks_body_set_transform(lks_world* world, lks_body_id body, lks_transf
     }
     RigidScene& scene = world->rigid;
     wake_neighbours(scene, body.index);
+    wake_jointed(scene, body.index);
     wake(scene.bodies[body.index]);
     forget_contacts(scene, body.index);
     place_body(scene.bodies[body.index], scene.descriptions[body.index], to_vec3(transform.position),
                fixed::normalise(to_rotation(transform.rotation)));
+    wake_touched(*world, body.index);
     return LKS_OK;
 }
 

@@ -107,6 +107,33 @@ void find_points(const lks_world& world, Contact& contact, const Direction& side
     take_manifold(contact, {old_pushes, contact.count}, manifold, a, b);
 }
 
+// Of surfaces that touch: a millimetre.
+constexpr std::int64_t touching_distance = (std::int64_t{1} << world_fraction_bits) / 1000;
+
+// Where they are now.
+bool touch(const RigidScene& scene, std::uint32_t a, std::uint32_t b) {
+    const Body& body_a = scene.bodies[a];
+    const Body& body_b = scene.bodies[b];
+    const BodyDescription& description_a = scene.descriptions[a];
+    const BodyDescription& description_b = scene.descriptions[b];
+    const std::int64_t reach = description_a.radius + description_b.radius + touching_distance;
+    if (passes_by(saturating_subtract(body_b.position, body_a.position), {0, 0, 0}, {reach, reach, reach})) {
+        return false;
+    }
+    for (std::uint32_t i = 0; i < description_a.shape_count; ++i) {
+        const Piece piece_a = piece_of_body(body_a, description_a.shapes[i], body_a.position);
+        for (std::uint32_t j = 0; j < description_b.shape_count; ++j) {
+            Manifold manifold{};
+            collide(piece_a, piece_of_body(body_b, description_b.shapes[j], body_a.position),
+                    touching_distance, no_side, manifold);
+            if (manifold.count != 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 class Search {
 public:
     Search(lks_world& world, Team* team) : world_(world), scene_(world.rigid), team_(team) {}
@@ -480,14 +507,13 @@ private:
         if (a.asleep == 0 && b.asleep == 0) {
             return false;
         }
-        constexpr std::int64_t touching = (std::int64_t{1} << world_fraction_bits) / 1000;
         const std::int64_t closing = per_tick(-fixed::dot(manifold.normal, b.velocity - a.velocity));
         // What has just been woken is about to be pushed: its neighbours are not to stand like walls.
         const bool comes = (a.is_awake() || b.is_awake()) &&
                            (closing > per_tick(gentle_speed) || a.has_woken() || b.has_woken());
         const bool carried = !a.is_dynamic() || !b.is_dynamic();
         for (std::uint32_t i = 0; (comes || carried) && i < manifold.count; ++i) {
-            if (manifold.points[i].separation <= touching + std::max<std::int64_t>(closing, 0)) {
+            if (manifold.points[i].separation <= touching_distance + std::max<std::int64_t>(closing, 0)) {
                 wake(a.asleep != 0 ? a : b);
                 woken_ = true;
                 return true;
@@ -550,6 +576,20 @@ void place_collider_bodies(lks_world& world) {
 void find_contacts(lks_world& world, Team* team) {
     while (!Search(world, team).run()) {
         wake_islands(world);
+    }
+}
+
+void wake_touched(lks_world& world, std::uint32_t body) {
+    RigidScene& scene = world.rigid;
+    if (scene.bodies[body].is_dynamic()) {
+        return;
+    }
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        if (scene.bodies[i].asleep != 0 && !scene.are_jointed(std::min(i, body), std::max(i, body)) &&
+            filters_meet(scene.descriptions[i].filter, scene.descriptions[body].filter) &&
+            touch(scene, i, body)) {
+            wake(scene.bodies[i]);
+        }
     }
 }
 

@@ -13,6 +13,10 @@ void find_contacts(lks_world& world, Team* team);
 // For contacts that need more than one look a tick: the points at the beginning of a substep.
 void find_points_again(const lks_world& world, Contact& contact);
 
+// Those asleep that a kinematic body touches where the game has put it. It does not move, and no tick would
+// look for them; whom a dynamic one touches is woken by the search.
+void wake_touched(lks_world& world, std::uint32_t body);
+
 // The body that a contact's or a pair's second number names.
 Body& other_body(RigidScene& scene, std::uint32_t other);
 

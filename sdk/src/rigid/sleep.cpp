@@ -182,6 +182,16 @@ void wake_neighbours(RigidScene& scene, std::uint32_t other) {
     }
 }
 
+void wake_jointed(RigidScene& scene, std::uint32_t body) {
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        const JointDescription& joint = scene.joints[i].description;
+        if (scene.joint_slots[i].used && (joint.body_a == body || joint.body_b == body)) {
+            wake(scene.bodies[joint.body_a]);
+            wake(scene.bodies[joint.body_b]);
+        }
+    }
+}
+
 void wake_islands(lks_world& world) {
     RigidScene& scene = world.rigid;
     const bool any = std::any_of(scene.bodies.begin(), scene.bodies.end(),

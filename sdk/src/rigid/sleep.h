@@ -28,5 +28,7 @@ void wake_all(RigidScene& scene);
 void wake_who_meets(RigidScene& scene, const lks_filter& filter);
 // Those that have pushed this one in the last tick.
 void wake_neighbours(RigidScene& scene, std::uint32_t other);
+// Both sides of each of its joints.
+void wake_jointed(RigidScene& scene, std::uint32_t body);
 
 } // namespace lks
