@@ -3,8 +3,13 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "support/bodies.h"
+#include "support/builders.h"
 
 using namespace support;
 
@@ -23,6 +28,111 @@ bool is_awake(const World& world, lks_body_id body) {
 double height(const World& world, lks_body_id body) {
     return state_of(world, body).position.y;
 }
+
+// A box asleep on four ropes without any tension, that pins hold at each of their points, or one kinematic
+// body.
+struct OnRopes {
+    explicit OnRopes(bool by_body) : world(world_def(60, 8)) {
+        if (by_body) {
+            holder = add_anchor(world, fixed(0, 0.5, 0));
+        }
+        const Asset rope(straight_rope(points - 1, 1));
+        for (const double z : {-0.15, -0.05, 0.05, 0.15}) {
+            ropes.push_back(world.add(rope, at(-0.5, 1, z)));
+            for (std::uint32_t i = 0; i < points; ++i) {
+                hold(ropes.back(), i, fixed(-0.5 + i / 20.0, 1, z));
+            }
+        }
+        box = add_body(world, box_shape(0.2, 0.1, 0.2, 200), fixed(0, 1.12, 0));
+        for (int tick = 0; tick < 300 && is_awake(world, box); ++tick) {
+            world.step();
+        }
+        REQUIRE_FALSE(is_awake(world, box));
+        REQUIRE(height(world, box) > 1.1);
+    }
+
+    void hold(lks_object_id rope, std::uint32_t vertex, const lks_vec3& place) {
+        if (!holder) {
+            world.pin(rope, vertex);
+            return;
+        }
+        lks_attachment_def def = lks_default_attachment_def();
+        def.object = rope;
+        def.vertex = vertex;
+        def.body = *holder;
+        def.point = {place.x, place.y - fixed(0.5), place.z};
+        lks_attachment_id id{};
+        REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
+        attachments.push_back(id);
+    }
+
+    template <typename Use>
+    void for_each_point(const Use& use) {
+        for (const lks_object_id rope : ropes) {
+            for (std::uint32_t i = 0; i < points; ++i) {
+                use(rope, i);
+            }
+        }
+    }
+
+    void move_pins(double by) {
+        for_each_point([&](lks_object_id rope, std::uint32_t i) {
+            lks_vec3 place{};
+            REQUIRE(lks_object_positions(world, rope, i, 1, &place) == LKS_OK);
+            world.set_target(rope, i, {place.x, place.y + fixed(by), place.z});
+        });
+    }
+
+    static constexpr std::uint32_t points = 21;
+    World world;
+    std::optional<lks_body_id> holder;
+    std::vector<lks_object_id> ropes;
+    std::vector<lks_attachment_id> attachments;
+    lks_body_id box{};
+};
+
+struct Act {
+    std::string name;
+    bool by_body;
+    std::function<void(OnRopes&)> begin;
+    std::function<void(OnRopes&)> each_tick = {};
+};
+
+const Act takes_ropes_away[] = {
+    {"ropes removed", false,
+     [](OnRopes& s) {
+         for (const lks_object_id rope : s.ropes) {
+             REQUIRE(lks_world_remove_object(s.world, rope) == LKS_OK);
+         }
+     }},
+    {"let go", false,
+     [](OnRopes& s) {
+         s.for_each_point([&](lks_object_id rope, std::uint32_t i) {
+             REQUIRE(lks_object_unpin(s.world, rope, i) == LKS_OK);
+         });
+     }},
+    {"pins jump", false, [](OnRopes& s) { s.move_pins(-0.5); }},
+    {"pins lowered by 6 cm/s", false, [](OnRopes&) {}, [](OnRopes& s) { s.move_pins(-0.001); }},
+    {"attachments removed", true,
+     [](OnRopes& s) {
+         for (const lks_attachment_id id : s.attachments) {
+             REQUIRE(lks_world_remove_attachment(s.world, id) == LKS_OK);
+         }
+     }},
+    {"holder removed", true,
+     [](OnRopes& s) { REQUIRE(lks_world_remove_body(s.world, *s.holder) == LKS_OK); }},
+    {"holder becomes dynamic", true,
+     [](OnRopes& s) { REQUIRE(lks_body_set_kind(s.world, *s.holder, LKS_BODY_DYNAMIC) == LKS_OK); }},
+    {"holder put elsewhere", true,
+     [](OnRopes& s) { REQUIRE(lks_body_set_transform(s.world, *s.holder, at(0, -0.5, 0)) == LKS_OK); }},
+    {"holder lowered by 6 cm/s", true, [](OnRopes&) {},
+     [](OnRopes& s) {
+         lks_transform place{};
+         REQUIRE(lks_body_transform(s.world, *s.holder, &place) == LKS_OK);
+         place.position.y -= fixed(0.001);
+         REQUIRE(lks_body_move_to(s.world, *s.holder, place) == LKS_OK);
+     }},
+};
 
 // A box asleep on the ground, and a kinematic one.
 struct OnGround {
@@ -46,6 +156,42 @@ struct OnGround {
 };
 
 } // namespace
+
+TEST_CASE("who sleeps on ropes falls when they go, whatever takes them away") {
+    for (const Act& act : takes_ropes_away) {
+        INFO(act.name);
+        OnRopes scene(act.by_body);
+        act.begin(scene);
+        for (int tick = 0; tick < 90; ++tick) {
+            if (act.each_tick) {
+                act.each_tick(scene);
+            }
+            scene.world.step();
+        }
+        CHECK(height(scene.world, scene.box) < 1.06);
+    }
+}
+
+TEST_CASE("who sleeps on ropes sleeps on when one far away goes, or the wind moves it") {
+    OnRopes scene(false);
+    const Asset rope(straight_rope(20, 1));
+    const lks_object_id far = scene.world.add(rope, at(-0.5, 1, 2));
+    const lks_object_id near = scene.world.add(rope, at(-0.5, 1.6, 0)); // above it
+    for (const lks_object_id object : {far, near}) {
+        scene.world.pin(object, 0);
+        scene.world.pin(object, 20);
+    }
+    for (int tick = 0; tick < 60; ++tick) {
+        REQUIRE(lks_object_add_velocity(scene.world, near, fixed(0, 0, tick % 20 < 10 ? 0.2 : -0.2)) ==
+                LKS_OK);
+        scene.world.step();
+        CHECK_FALSE(is_awake(scene.world, scene.box));
+    }
+    REQUIRE(lks_world_remove_object(scene.world, far) == LKS_OK);
+    REQUIRE(lks_world_remove_object(scene.world, near) == LKS_OK);
+    scene.world.step();
+    CHECK_FALSE(is_awake(scene.world, scene.box));
+}
 
 TEST_CASE("who hangs asleep on a kinematic body follows where it is put") {
     for (const std::uint32_t kind : {LKS_JOINT_BALL, LKS_JOINT_HINGE, LKS_JOINT_FIXED, LKS_JOINT_DISTANCE}) {

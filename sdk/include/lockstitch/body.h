@@ -80,7 +80,8 @@ LKS_API lks_fixed lks_world_spin_limit(const lks_world* world);
 
 /* Of the body's frame. The position is exact; the rotation is rounded to 2^-30. */
 LKS_API lks_result lks_body_transform(const lks_world* world, lks_body_id body, lks_transform* transform);
-/* Puts it there at once; its velocity stays. */
+/* Puts it there at once; its velocity stays. Who touched it or is jointed to it wakes, and whom a kinematic
+ * one touches there. */
 LKS_API lks_result lks_body_set_transform(lks_world* world, lks_body_id body, lks_transform transform);
 /* m/s of the centre of mass, and rad/s, in world axes. Either may be null. */
 LKS_API lks_result lks_body_velocity(const lks_world* world, lks_body_id body, lks_vec3* velocity,
@@ -102,11 +103,14 @@ LKS_API lks_result lks_body_set_kind(lks_world* world, lks_body_id body, uint32_
 LKS_API uint32_t lks_body_get_kind(const lks_world* world, lks_body_id body);
 
 /* Sleep. What has been slower than 10 cm/s, or within a centimetre and two degrees of one place, for half a
- * second, with all that it touches and is jointed to, is taken out of the simulation until something touches
- * it or the game does something to it: a sleeping pile costs next to nothing. Where nothing touches it that
- * takes two seconds, and where something overlaps by more than 1.5 mm two seconds on the average. Adding,
- * placing or removing a collider wakes all whose filters meet its own, gravity everybody. 1 while the body is
- * awake; 0 for a kinematic body and a stale id. */
+ * second, with all that it touches and is jointed to, is taken out of the simulation: a sleeping pile costs
+ * next to nothing. Where nothing touches it that takes two seconds, and where something overlaps by more than
+ * 1.5 mm two seconds on the average. It wakes, with all these, when something awake or kinematic comes to
+ * touch or push it, when particles strike it or a cloth or rope leaves it altogether, when the game does
+ * something to it, and when what it touches or is jointed to is removed, put elsewhere or gets another kind.
+ * Adding, placing or removing a collider wakes all whose filters meet its own, adding or placing a kinematic
+ * body those that it touches, gravity everybody. What comes to lie beside it, or softly on it, does not.
+ * 1 while the body is awake; 0 for a kinematic body and a stale id. */
 LKS_API uint32_t lks_body_is_awake(const lks_world* world, lks_body_id body);
 /* With its island, from the next tick on. */
 LKS_API lks_result lks_body_wake(lks_world* world, lks_body_id body);

@@ -37,6 +37,7 @@ LKS_API lks_object_def lks_default_object_def(void);
 /* Takes the lowest free index. The order in which objects are added decides their indices and thereby the
  * world's hash; it does not influence how any of them moves, nor the hash of any one object. */
 LKS_API lks_result lks_world_add_object(lks_world* world, const lks_object_def* def, lks_object_id* object);
+/* Bodies that sleep on it wake. Attachments to it are removed with it. */
 LKS_API lks_result lks_world_remove_object(lks_world* world, lks_object_id object);
 
 /* 1 while the object exists. */

@@ -5,6 +5,7 @@
 
 #include "api/checks.h"
 #include "fixed/rotation.h"
+#include "rigid/particle_touch.h"
 #include "solver/local_frame.h"
 #include "solver/prediction.h"
 #include "solver/wrapping.h"
@@ -163,7 +164,8 @@ lks_result lks_world_add_object(lks_world* world, const lks_object_def* def, lks
 
 lks_result lks_world_remove_object(lks_world* world, lks_object_id object) {
     lks_result result = LKS_OK;
-    if (require_object(world, object, result) != nullptr) {
+    if (const Object* found = require_object(world, object, result)) {
+        wake_who_touches(*world, *found);
         free_object_slot(*world, object.index);
     }
     return result;

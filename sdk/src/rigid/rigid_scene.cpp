@@ -31,9 +31,9 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       figure_shares(allocator), substep_motions(allocator), predicted_speeds(allocator),
       figure_masses(allocator), figures_changed(allocator), strained_figures(allocator),
       figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator), is_coupled(allocator),
-      coupled(allocator), object_pairs(allocator), object_impulses(allocator), held(allocator),
-      rope_loads(allocator), particle_loads(allocator), loaded_bodies(allocator), loaded_joints(allocator),
-      tree_kernels_(tree_kernels) {}
+      coupled(allocator), object_pairs(allocator), object_impulses(allocator), object_touches(allocator),
+      held(allocator), rope_loads(allocator), particle_loads(allocator), loaded_bodies(allocator),
+      loaded_joints(allocator), tree_kernels_(tree_kernels) {}
 
 // A bundle takes the same for any number of trees.
 std::size_t RigidScene::wide_room(std::size_t count) const {
@@ -69,7 +69,8 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         figure_pairs.reserve(contact_capacity(body_count)) && figure_bundles.reserve(body_count) &&
         wide_bodies.reserve(wide_room(body_count)) &&
         object_pairs.reserve(object_pair_capacity(object_room_, body_count)) &&
-        object_impulses.reserve(object_pair_capacity(object_room_, body_count));
+        object_impulses.reserve(object_pair_capacity(object_room_, body_count)) &&
+        object_touches.reserve(object_pair_capacity(object_room_, body_count));
     body_room_ = done ? std::max(body_room_, body_count) : body_room_;
     collider_room_ = done ? std::max(collider_room_, collider_count) : collider_room_;
     return done;

@@ -138,6 +138,7 @@ struct RigidScene {
     Array<std::uint32_t> coupled;
     Array<std::uint64_t> object_pairs;
     Array<std::int64_t> object_impulses; // beside them: what particles pushed, World N·s, for events
+    Array<std::uint8_t> object_touches;  // beside them: asleep and touched when the tick began
     Array<HeldParticle> held;            // ascending
     // Of ropes that bear loads (rigid/rope_loads.h), ascending, and room for what that makes of particles.
     Array<RopeLoad> rope_loads;

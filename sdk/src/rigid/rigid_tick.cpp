@@ -9,6 +9,7 @@
 #include "rigid/coupling.h"
 #include "rigid/figure_overlaps.h"
 #include "rigid/figures.h"
+#include "rigid/particle_touch.h"
 #include "rigid/rigid_substep.h"
 #include "rigid/rope_loads.h"
 #include "rigid/sleep.h"
@@ -119,6 +120,7 @@ private:
             begin_tick(attachment, sides, world_.rate);
         });
         find_rope_loads(world_);
+        note_particle_touches(world_);
     }
 
     void run_substeps() {
@@ -168,7 +170,7 @@ private:
         }
     }
 
-    // What particles have struck, and what attachments hold, is awake.
+    // What particles have struck, or left, and what attachments hold, is awake.
     void wake_for_particles() {
         constexpr std::int64_t enough = (std::int64_t{1} << world_fraction_bits) / 50;
         for (Body& body : scene_.bodies) {
@@ -177,6 +179,7 @@ private:
             }
             body.struck = 0;
         }
+        wake_who_was_left(world_);
         for_each_attachment(world_, [](Attachment& attachment, const AttachmentSides& sides) {
             if (sides.body != nullptr && attachment.constants.movable != 0) {
                 sides.body->rest_ticks = 0;
