@@ -106,9 +106,10 @@ TEST_CASE("negative or extreme compliance and damping of a rope are refused") {
 TEST_CASE("ropes of no length or no segments or too many are refused") {
     refused([](auto& def) { def.length = 0; }, "0");
     refused([](auto& def) { def.length = -3; }, "-3");
+    refused([](auto& def) { def.length = -1; }, "length is -1; it must be above 0 and at most 60 m");
     refused([](auto& def) { def.segments = 0; }, "0");
     refused([](auto& def) { def.segments = 1048576; }, "1048576");
-    refused([](auto& def) { def.length = 60.5; }, "60.5");
+    refused([](auto& def) { def.length = 60.5; }, "length is 60.5; it must be above 0 and at most 60 m");
     const std::vector<double> points{0, 0, 0, 1, 0, 0};
     lks_rope_def def = polyline(points);
     def.point_count = 1;

@@ -173,7 +173,8 @@ TEST_CASE("a world tells the settings that it was made with") {
 TEST_CASE("no workers and too many and half a task system are refused") {
     check_world_refused(changed([](auto& def) { def.worker_count = 0; }), LKS_ERROR_INVALID_ARGUMENT, "0");
     check_world_refused(changed([](auto& def) { def.worker_count = 65; }), LKS_ERROR_INVALID_ARGUMENT, "65");
-    check_world_refused(changed([](auto& def) { def.reserved = 3; }), LKS_ERROR_INVALID_ARGUMENT, "3");
+    check_world_refused(changed([](auto& def) { def.reserved = 3; }), LKS_ERROR_INVALID_ARGUMENT,
+                        "is 3; it must be 0.");
     check_world_refused(changed([](auto& def) { def.tasks.finish = [](void*, void*) {}; }),
                         LKS_ERROR_INVALID_ARGUMENT, "task system");
     check_world_refused(changed([](auto& def) {

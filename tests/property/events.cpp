@@ -371,6 +371,7 @@ TEST_CASE("events beyond the room for them are counted, and wrong settings refus
     CHECK(world.counters().lost_events == 21); // each begins, hits and is loaded
     check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "1024",
                        [&] { return lks_world_record_events(world, 1024, 0, 10); });
+    CHECK(world.message() == "The kinds of events are 1024; they are sums of bits, up to 1023.");
     check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "-1",
                        [&] { return lks_world_record_events(world, 1, fixed(-1), 10); });
     check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, "0 events",

@@ -102,6 +102,7 @@ typedef struct lks_cloth_def {
 /* Grid 2×2 m of 21×21 vertices, 0.3 kg/m², inextensible stretch, shear 1e-7, bend 1e-5 m/N; no tether
  * anchors, two tethers a vertex. */
 LKS_API lks_cloth_def lks_default_cloth_def(void);
+/* LKS_ERROR_STRUCT_SIZE comes without a sentence: where `error` lies in such a definition is unknown. */
 LKS_API lks_result lks_asset_create_cloth(const lks_cloth_def* def, lks_asset** asset);
 
 /* How the stretch of a rope is solved.

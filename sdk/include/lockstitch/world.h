@@ -49,6 +49,7 @@ typedef struct lks_world_def {
 
 /* 60 Hz, 20 substeps of 1 iteration, gravity -9.81 m/s² on y, at most 8 ticks a call, the rest dropped. */
 LKS_API lks_world_def lks_default_world_def(void);
+/* LKS_ERROR_STRUCT_SIZE comes without a sentence: where `error` lies in such a definition is unknown. */
 LKS_API lks_result lks_world_create(const lks_world_def* def, lks_world** world);
 LKS_API void lks_world_destroy(lks_world* world); /* null is allowed */
 

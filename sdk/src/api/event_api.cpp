@@ -18,7 +18,7 @@ lks_result lks_world_record_events(lks_world* world, uint32_t kinds, lks_fixed l
     }
     if ((kinds & ~LKS_ALL_EVENTS) != 0) {
         return world->fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "The kinds of events are " << kinds
-                                                                  << "; they are made of eight bits, up to "
+                                                                  << "; they are sums of bits, up to "
                                                                   << LKS_ALL_EVENTS << ".");
     }
     const Number impulse[] = {{"least_impulse", " N·s", least_impulse, 0, LKS_FIXED(8000000)}};

@@ -30,7 +30,6 @@ lks_result check_world_def(const lks_world_def& def) {
         {"excess_time", def.excess_time, LKS_EXCESS_TIME_DROP, LKS_EXCESS_TIME_KEEP},
         {"keep_previous_positions", def.keep_previous_positions, 0, 1},
         {"worker_count", def.worker_count, 1, LKS_MAX_WORKERS},
-        {"reserved", def.reserved, 0, 0},
         {"simd", def.simd, LKS_SIMD_AUTO, LKS_SIMD_WASM},
     };
     for (const Range& range : ranges) {
@@ -39,6 +38,10 @@ lks_result check_world_def(const lks_world_def& def) {
                           Sentence() << "The world's " << range.name << " is " << range.value
                                      << "; it must be from " << range.low << " to " << range.high << ".");
         }
+    }
+    if (def.reserved != 0) {
+        return report(def.error, LKS_ERROR_INVALID_ARGUMENT,
+                      Sentence() << "The world's reserved field is " << def.reserved << "; it must be 0.");
     }
     const std::uint64_t substeps_per_second = std::uint64_t{def.tick_rate_hz} * def.substeps;
     if (substeps_per_second > substeps_per_second_limit) {

@@ -63,11 +63,12 @@ lks_result read_coordinate(lks_error* error, const char* what, std::uint32_t ind
     return LKS_OK;
 }
 
-lks_result read_length(lks_error* error, const char* name, double value, std::int64_t& out) {
-    constexpr std::int64_t limit = coordinate_one * 120;
+lks_result read_length(lks_error* error, const char* name, double value, const LengthRange& range,
+                       std::int64_t& out) {
     std::int64_t raw = 0;
-    if (!to_coordinate(value, coordinate_fraction_bits, raw) || raw <= 0 || raw > limit) {
-        return refuse(error, name, value, "above 0 and at most 120 m");
+    if (!to_coordinate(value, coordinate_fraction_bits, raw) || raw <= 0 ||
+        raw > coordinate_one * range.most) {
+        return refuse(error, name, value, range.text);
     }
     out = raw;
     return LKS_OK;

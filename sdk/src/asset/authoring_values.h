@@ -23,8 +23,15 @@ lks_result read_authored_or_zero(lks_error* error, const char* name, double valu
 // A position's component within ±LKS_MAX_ASSET_COORDINATE, as a coordinate.
 lks_result read_coordinate(lks_error* error, const char* what, std::uint32_t index, char axis, double value,
                            std::int64_t& out);
-// A length from just above 0 to 120 m, as a coordinate.
-lks_result read_length(lks_error* error, const char* name, double value, std::int64_t& out);
+// What asks for it may be this long, metres, at most 120.
+struct LengthRange {
+    std::int64_t most;
+    const char* text; // "above 0 and at most 60 m"
+};
+
+// A length above 0, as a coordinate.
+lks_result read_length(lks_error* error, const char* name, double value, const LengthRange& range,
+                       std::int64_t& out);
 
 lks_result read_family(lks_error* error, const char* name, const lks_distance_material& material,
                        Family& out);

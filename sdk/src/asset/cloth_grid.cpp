@@ -137,10 +137,13 @@ lks_result build_cloth_grid(Build& build, const lks_cloth_def& def) {
     }
     std::int64_t width = 0;
     std::int64_t height = 0;
-    if (const lks_result result = read_length(build.error, "width", def.width, width); result != LKS_OK) {
+    const LengthRange range{120, "above 0 and at most 120 m"};
+    if (const lks_result result = read_length(build.error, "width", def.width, range, width);
+        result != LKS_OK) {
         return result;
     }
-    if (const lks_result result = read_length(build.error, "height", def.height, height); result != LKS_OK) {
+    if (const lks_result result = read_length(build.error, "height", def.height, range, height);
+        result != LKS_OK) {
         return result;
     }
     Grid grid(build, def);

@@ -1,6 +1,5 @@
 // A rope from a length or from a polyline: stretch in two colours, bend between points two apart in two more;
 // and the order of its segments where its stretch may be solved at once instead of in colours.
-#include "api/authoring_text.h"
 #include "asset/authoring_masses.h"
 #include "asset/authoring_values.h"
 #include "asset/create.h"
@@ -20,14 +19,10 @@ lks_result place_straight(Build& build, const lks_rope_def& def) {
                                                                  << greatest_point_count - 1 << ".");
     }
     std::int64_t length = 0;
-    if (const lks_result result = read_length(build.error, "length", def.length, length); result != LKS_OK) {
+    const LengthRange range{60, "above 0 and at most 60 m, if it is no polyline"};
+    if (const lks_result result = read_length(build.error, "rope's length", def.length, range, length);
+        result != LKS_OK) {
         return result;
-    }
-    if (length > coordinate_one * 60) {
-        return build.fail(
-            LKS_ERROR_INVALID_ARGUMENT,
-            Sentence() << "The length is " << Authored{def.length}
-                       << " m; a straight rope is at most 60 m long, a polyline may be longer.");
     }
     if (!build.positions.resize(std::size_t{def.segments} + 1)) {
         return build.fail_out_of_memory();
