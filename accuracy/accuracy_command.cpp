@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "accuracy_report.h"
+#include "report_files.h"
 #include "spring.h"
 #include "stairs.h"
 
@@ -118,6 +119,16 @@ int run_accuracy(const AccuracyOptions& options, const std::function<void(const 
             return bad_use;
         }
     }
+    std::string error;
+    if (!options.report.empty()) {
+        if (!lks_bench::make_folder(options.report, error)) {
+            complain(error);
+            return failed;
+        }
+        if (!lks_bench::has_gnuplot(error)) {
+            complain(lks_bench::no_gnuplot_here);
+        }
+    }
     Measured measured;
     try {
         for (const std::string& name : chosen) {
@@ -128,8 +139,8 @@ int run_accuracy(const AccuracyOptions& options, const std::function<void(const 
                 measured.experiments.push_back(measure_part(name, options, progress));
             }
         }
-    } catch (const std::exception& error) {
-        complain(error.what());
+    } catch (const std::exception& exception) {
+        complain(exception.what());
         return failed;
     }
     const std::vector<Section> sections = sections_of(measured);
@@ -144,7 +155,6 @@ int run_accuracy(const AccuracyOptions& options, const std::function<void(const 
             std::fputs(section.text.c_str(), stdout);
         }
     }
-    std::string error;
     if (!options.report.empty() && !write_report(options.report, sections, error)) {
         complain(error);
         return failed;

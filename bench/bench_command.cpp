@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "gnuplot.h"
 #include "report.h"
+#include "report_files.h"
 #include "sections.h"
 #include "variant.h"
 
@@ -148,6 +150,15 @@ int run_bench(const BenchOptions& options, const std::function<void(const std::s
     }
     Results results;
     std::string error;
+    if (!options.report.empty()) {
+        if (!make_folder(options.report, error)) {
+            complain(error);
+            return failed;
+        }
+        if (!has_gnuplot(error)) {
+            complain(no_gnuplot_here);
+        }
+    }
     for (const std::string& part : parts) {
         progress(part);
         const std::size_t before = results.size();

@@ -49,10 +49,20 @@ std::string run_name() {
 bool make_folder(const std::string& folder, std::string& error) {
     std::error_code failure;
     fs::create_directories(folder, failure);
+    if (!failure && !fs::is_directory(folder, failure)) {
+        failure = std::make_error_code(std::errc::not_a_directory);
+    }
     if (failure) {
         error = "The folder " + folder + " can't be made: " + failure.message() + ".";
+        return false;
     }
-    return !failure;
+    const std::string probe = "can-be-written";
+    if (!write_file(folder, probe, "", error)) {
+        error = "Nothing can be written to the folder " + folder + ".";
+        return false;
+    }
+    fs::remove(fs::path(folder) / probe, failure);
+    return true;
 }
 
 bool write_file(const std::string& folder, const std::string& name, const std::string& text,

@@ -8,7 +8,8 @@ namespace lks_bench {
 std::string machine_name(); // processor, threads and compiler
 std::string run_name();     // solver version and today's date
 
-// False, with a sentence.
+// False, with a sentence: it can't be, or nothing can be written there. Also for before anything is measured,
+// which takes minutes.
 bool make_folder(const std::string& folder, std::string& error);
 bool write_file(const std::string& folder, const std::string& name, const std::string& text,
                 std::string& error);

@@ -19,6 +19,11 @@ namespace {
 
 const char* const gl_help = "How to get OpenGL: auto, egl or osmesa";
 
+// An empty word is a script's variable that was never set, and no wish for the default.
+std::string check_not_empty(const std::string& word) {
+    return word.empty() ? "it is empty" : "";
+}
+
 class CommandLine {
 public:
     CommandLine()
@@ -83,6 +88,7 @@ private:
         command
             ->add_option("--schedule", run_options_.schedule,
                          "Let real time pass in frames of the nanoseconds in this file, one a line")
+            ->check(check_not_empty)
             ->excludes(rate);
         add_machine(*command, run_options_.machine);
         command->add_option("--offset-km", run_options_.offset_km,
@@ -110,6 +116,7 @@ private:
             ->capture_default_str();
         command->add_option("--size", render_options_.size, "WIDTHxHEIGHT")->capture_default_str();
         command->add_option("--out", render_options_.out, "Pictures go into this folder's SCENE folders")
+            ->check(check_not_empty)
             ->capture_default_str();
         add_gl(*command, render_options_.gl);
         command->footer("Examples:\n"
@@ -121,14 +128,17 @@ private:
     void add_bench() {
         CLI::App* command =
             app_.add_subcommand("bench", "Measure what projections, ticks and snapshots cost");
-        command->add_option("PART", bench_options_.parts, "Workloads and sections; see --list");
+        CLI::Option* parts =
+            command->add_option("PART", bench_options_.parts, "Workloads and sections; see --list");
         command
             ->add_option("--rounds", bench_options_.rounds,
                          "How often each is measured, for medians: 21, or fewer where it takes long")
             ->check(CLI::Range(1u, 100000u));
-        command->add_option("--report", bench_options_.report,
-                            "Everything, and report.md, results.json, results.csv and plots in this folder");
-        command->add_flag("--list", bench_options_.list, "What can be measured");
+        command
+            ->add_option("--report", bench_options_.report,
+                         "Everything, and report.md, results.json, results.csv and plots in this folder")
+            ->check(check_not_empty);
+        command->add_flag("--list", bench_options_.list, "What can be measured")->excludes(parts);
         command->add_flag("--json", bench_options_.json, "As JSON");
         command->add_option("--once", bench_options_.once, "Run one variant of one workload once")->group("");
         command->footer("Variants take turns within rounds; × is the ratio to the first one, the median of\n"
@@ -143,15 +153,17 @@ private:
     void add_accuracy() {
         CLI::App* command =
             app_.add_subcommand("accuracy", "Measure error, and what it costs to make it smaller");
-        command->add_option("EXPERIMENT", accuracy_options_.parts,
-                            "The experiments, all by default; see --list");
+        CLI::Option* parts = command->add_option("EXPERIMENT", accuracy_options_.parts,
+                                                 "The experiments, all by default; see --list");
         command->add_flag("--quick", accuracy_options_.quick,
                           "A small grid of settings: seconds instead of minutes");
         command->add_flag("--long", accuracy_options_.long_times,
                           "The hanging cloth for 10 seconds; spring and heavy rope for 60 also with --quick");
-        command->add_option("--report", accuracy_options_.report,
-                            "report.md, results.json, results.csv and plots in this folder");
-        command->add_flag("--list", accuracy_options_.list, "What can be measured");
+        command
+            ->add_option("--report", accuracy_options_.report,
+                         "report.md, results.json, results.csv and plots in this folder")
+            ->check(check_not_empty);
+        command->add_flag("--list", accuracy_options_.list, "What can be measured")->excludes(parts);
         command->add_flag("--json", accuracy_options_.json, "As JSON");
         command->footer(
             "The experiments of the XPBD paper, and work-precision over substeps × iterations: ours,\n"
@@ -172,9 +184,12 @@ private:
         command->add_option("SCENE", options.scenes, "The scenes; all by default");
         CLI::Option* states = command->add_flag("--states-only", options.states_only, "No images");
         command->add_flag("--images-only", options.images_only, "No states")->excludes(states);
-        command->add_option("--golden", options.golden,
-                            "The folder with states/ and images/; golden by default");
-        command->add_option("--out", options.out, "Where failures are shown")->capture_default_str();
+        command
+            ->add_option("--golden", options.golden, "The folder with states/ and images/; golden by default")
+            ->check(check_not_empty);
+        command->add_option("--out", options.out, "Where failures are shown")
+            ->check(check_not_empty)
+            ->capture_default_str();
         add_gl(*command, options.gl);
         add_machine(*command, options.machine);
         command->footer(footer);
@@ -184,8 +199,10 @@ private:
     static void add_machine(CLI::App& command, MachineOptions& machine) {
         command.add_option("--workers", machine.workers, "Threads at work: the same hashes")
             ->check(CLI::Range(1u, LKS_MAX_WORKERS));
-        command.add_option("--simd", machine.simd,
-                           "auto, scalar, sse4.1, avx2, avx512, neon or wasm: the same hashes");
+        command
+            .add_option("--simd", machine.simd,
+                        "auto, scalar, sse4.1, avx2, avx512, neon or wasm: the same hashes")
+            ->check(check_not_empty);
     }
 
     static void add_gl(CLI::App& command, std::string& gl) {

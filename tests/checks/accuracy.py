@@ -58,9 +58,15 @@ if "'rope_swin'" not in run("rope_swin", expected=2).stderr:
     sys.exit("An unknown experiment was not refused by name.")
 if "paper_balloon" not in run("--list").stdout:
     sys.exit("--list does not list the balloon.")
-refused = run("paper_spring", "--report", "/dev/null/report", expected=1)
-if "/dev/null/report" not in refused.stderr:
-    sys.exit("A folder that can't be was not refused by name.")
+if "--list" not in run("--list", "paper_spring", expected=2).stderr:
+    sys.exit("What is to be measured was left out beside --list.")
+if "--report" not in run("paper_spring", "--report", "", expected=2).stderr:
+    sys.exit("A report without a folder was not refused.")
+with tempfile.NamedTemporaryFile() as file:
+    for folder in "/dev/null/report", "/proc/report", file.name:
+        refused = run("paper_spring", "--report", folder, expected=1)
+        if folder not in refused.stderr or "accuracy: paper_spring" in refused.stderr:
+            sys.exit(f"{folder} was not refused by name before anything was measured: {refused.stderr}")
 
 with tempfile.TemporaryDirectory() as folder:
     drawn = shutil.which("gnuplot") is not None

@@ -13,8 +13,8 @@ import tempfile
 program = sys.argv[1]
 
 
-def run(*arguments, expected=0):
-    done = subprocess.run(arguments, capture_output=True, text=True)
+def run(*arguments, expected=0, **settings):
+    done = subprocess.run(arguments, capture_output=True, text=True, **settings)
     if done.returncode != expected:
         sys.exit(f"{arguments} ended with {done.returncode}: {done.stderr}")
     return done
@@ -101,9 +101,20 @@ for variant in "swept, 10 substeps", "at once, 10 substeps":
 refused = run(program, "bench", "clot_64", expected=2)
 if "'clot_64'" not in refused.stderr:
     sys.exit("An unknown workload was not refused by name.")
-refused = run(program, "bench", "cloth_50", "--rounds", "1", "--report", "/dev/null/report", expected=1)
-if "/dev/null/report" not in refused.stderr:
-    sys.exit("A folder that can't be was not refused by name.")
+if "--list" not in run(program, "bench", "--list", "cloth_50", expected=2).stderr:
+    sys.exit("What is to be measured was left out beside --list.")
+if "--report" not in run(program, "bench", "cloth_50", "--report", "", expected=2).stderr:
+    sys.exit("A report without a folder was not refused.")
+with tempfile.NamedTemporaryFile() as file:
+    for folder in "/dev/null/report", "/proc/report", file.name:
+        refused = run(program, "bench", "cloth_50", "--rounds", "1", "--report", folder, expected=1)
+        if folder not in refused.stderr or "bench: cloth_50" in refused.stderr:
+            sys.exit(f"{folder} was not refused by name before anything was measured: {refused.stderr}")
+with tempfile.TemporaryDirectory() as folder:
+    told = run(program, "bench", "cloth_50", "--rounds", "1", "--report", folder,
+               expected=1, env={"PATH": ""})
+    if not 0 <= told.stderr.find("gnuplot") < told.stderr.find("bench: cloth_50"):
+        sys.exit(f"That gnuplot is missing was not said before anything was measured: {told.stderr}")
 
 with tempfile.TemporaryDirectory() as folder:
     drawn = shutil.which("gnuplot") is not None
