@@ -116,7 +116,8 @@ LKS_API uint32_t lks_body_is_awake(const lks_world* world, lks_body_id body);
 LKS_API lks_result lks_body_wake(lks_world* world, lks_body_id body);
 LKS_API uint32_t lks_world_awake_body_count(const lks_world* world);
 
-/* kg; 0 for a kinematic body. */
+/* kg; 0 for a kinematic body, and at most what an lks_fixed holds, 8388608, of one that its densities make
+ * heavier. */
 LKS_API lks_result lks_body_mass(const lks_world* world, lks_body_id body, lks_fixed* mass);
 /* In the body's frame, metres. */
 LKS_API lks_result lks_body_centre_of_mass(const lks_world* world, lks_body_id body, lks_vec3* centre);

@@ -47,6 +47,9 @@ typedef struct lks_world_def {
     lks_error* error; /* null, or receives the sentence when lks_world_create fails */
 } lks_world_def;
 
+/* Ids of objects, bodies, joints and the rest belong to the world that gave them: another one may have given
+ * the same numbers, and then takes them for its own. */
+
 /* 60 Hz, 20 substeps of 1 iteration, gravity -9.81 m/s² on y, at most 8 ticks a call, the rest dropped. */
 LKS_API lks_world_def lks_default_world_def(void);
 /* LKS_ERROR_STRUCT_SIZE comes without a sentence: where `error` lies in such a definition is unknown. */
