@@ -34,7 +34,7 @@ void add_slope(World& world, const Friction& friction, double degrees) {
     world.add(def);
 }
 
-// A ball that bounces once, of what comes of it: how fast it goes on, and how fast it spins.
+// How fast a ball goes along the ground and spins, before it bounces or behind.
 struct Bounce {
     double along, spin;
 };
@@ -120,8 +120,9 @@ TEST_CASE("a ball that bounces is rubbed by what it is thrown back with, as Coul
         for (const std::uint32_t substeps : {1u, 8u, 20u}) {
             for (const bool on_body : {false, true}) {
                 // Thrown along, it grips and rolls; thrown fast or spinning fast it slides all the time.
-                for (const auto& [along, spin] :
-                     {std::pair{3.0, 0.0}, {0.0, -20.0}, {12.0, 0.0}, {0.0, 50.0}}) {
+                for (const Bounce& thrown : {Bounce{3, 0}, Bounce{0, -20}, Bounce{12, 0}, Bounce{0, 50}}) {
+                    const double along = thrown.along;
+                    const double spin = thrown.spin;
                     const double slip = along + spin * ball_radius;
                     const double greatest = 0.4 * (1 + restitution) * down;
                     const double grips = std::abs(slip) * 2 / 7; // what stops the slip of a ball
