@@ -1,7 +1,7 @@
 // Worlds made at random of figures, bodies, cloth, ropes and what ties them, with inputs at random: the same
 // bits on every instruction set and with any number of workers. What is written for a purpose meets few of
-// the ways in which parts can stand together: figures that hang on ropes were bundled with others for two
-// versions.
+// the ways in which parts can stand together: in version 29 figures that hang on ropes were bundled with
+// others.
 #include <doctest/doctest.h>
 
 #include <random>
