@@ -119,15 +119,8 @@ int run_accuracy(const AccuracyOptions& options, const std::function<void(const 
             return bad_use;
         }
     }
-    std::string error;
-    if (!options.report.empty()) {
-        if (!lks_bench::make_folder(options.report, error)) {
-            complain(error);
-            return failed;
-        }
-        if (!lks_bench::has_gnuplot(error)) {
-            complain(lks_bench::no_gnuplot_here);
-        }
+    if (!options.report.empty() && !lks_bench::prepare_report(options.report, complain)) {
+        return failed;
     }
     Measured measured;
     try {
@@ -139,8 +132,8 @@ int run_accuracy(const AccuracyOptions& options, const std::function<void(const 
                 measured.experiments.push_back(measure_part(name, options, progress));
             }
         }
-    } catch (const std::exception& exception) {
-        complain(exception.what());
+    } catch (const std::exception& error) {
+        complain(error.what());
         return failed;
     }
     const std::vector<Section> sections = sections_of(measured);
@@ -155,6 +148,7 @@ int run_accuracy(const AccuracyOptions& options, const std::function<void(const 
             std::fputs(section.text.c_str(), stdout);
         }
     }
+    std::string error;
     if (!options.report.empty() && !write_report(options.report, sections, error)) {
         complain(error);
         return failed;

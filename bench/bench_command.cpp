@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "gnuplot.h"
 #include "report.h"
 #include "report_files.h"
 #include "sections.h"
@@ -150,14 +149,8 @@ int run_bench(const BenchOptions& options, const std::function<void(const std::s
     }
     Results results;
     std::string error;
-    if (!options.report.empty()) {
-        if (!make_folder(options.report, error)) {
-            complain(error);
-            return failed;
-        }
-        if (!has_gnuplot(error)) {
-            complain(no_gnuplot_here);
-        }
+    if (!options.report.empty() && !prepare_report(options.report, complain)) {
+        return failed;
     }
     for (const std::string& part : parts) {
         progress(part);

@@ -26,9 +26,6 @@ std::string comma_separated(const std::vector<std::string>& parts);
 
 // False, with a sentence.
 bool has_gnuplot(std::string& error);
-// The same for before anything is measured.
-inline constexpr const char* no_gnuplot_here =
-    "The plots need the program gnuplot, which is not here; the report will be without them.";
 // Into FOLDER/FILE, an SVG.
 bool draw(const std::string& folder, const std::string& file, const Script& script, std::string& error);
 

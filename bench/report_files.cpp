@@ -7,6 +7,8 @@
 #include <fstream>
 #include <thread>
 
+#include "gnuplot.h"
+
 namespace lks_bench {
 namespace {
 
@@ -44,6 +46,18 @@ std::string run_name() {
     char date[20] = "";
     std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
     return "solver version " + std::to_string(lks_solver_version()) + "; " + date + " UTC";
+}
+
+bool prepare_report(const std::string& folder, const std::function<void(const std::string&)>& complain) {
+    std::string error;
+    if (!make_folder(folder, error)) {
+        complain(error);
+        return false;
+    }
+    if (!has_gnuplot(error)) {
+        complain("The plots need the program gnuplot, which is not here; the report will be without them.");
+    }
+    return true;
 }
 
 bool make_folder(const std::string& folder, std::string& error) {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "support/allocator.h"
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 
@@ -30,11 +31,7 @@ void add_cloth(World& world) {
     net.radius = 0.01;
     lks_transform over = at(0.1, 4.2, 0);
     REQUIRE(lks_rotation_from_axis_angle(1, 0, 0, -90, &over.rotation) == LKS_OK);
-    lks_attachment_def def = lks_default_attachment_def();
-    def.object = world.add(net.build(), over);
-    def.body = {LKS_HUMANOID_HAND_LEFT, 1};
-    lks_attachment_id id{};
-    REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
+    attach(world, to_body(world.add(net.build(), over), 0, {LKS_HUMANOID_HAND_LEFT, 1}));
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 #include "support/sanitised.h"
@@ -154,26 +155,12 @@ private:
         const lks_object_id sheet = world.add(cloth(), over);
         const lks_object_id line = world.add(rope(), {place(3, 0.55, 0.3), {0, 0, 0, LKS_ROTATION_ONE}});
         const lks_object_id branch = world.add(rope(), {place(3.3, 0.55, 0.3), {0, 0, 0, LKS_ROTATION_ONE}});
-        lks_attachment_def def = lks_default_attachment_def();
-        lks_attachment_id id{};
-        def.object = sheet;
-        def.vertex = 9;
-        def.body = last_link_;
-        def.compliance = fixed(0.01);
-        def.damping = fixed(5);
-        REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
-        def = lks_default_attachment_def();
-        def.object = line;
-        def.body = plank;
-        def.point = fixed(0, 0.05, 0.3);
-        REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
-        def.kind = LKS_ATTACHMENT_TO_VERTEX;
-        def.object = branch;
-        def.other_object = line;
-        def.other_vertex = 3;
-        def.body = {};
-        def.point = {};
-        REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
+        lks_attachment_def softly = to_body(sheet, 9, last_link_);
+        softly.compliance = fixed(0.01);
+        softly.damping = fixed(5);
+        attach(world, softly);
+        attach(world, to_body(line, 0, plank, fixed(0, 0.05, 0.3)));
+        attach(world, to_vertex(branch, 0, line, 3));
     }
 
     void give_inputs() {
@@ -345,11 +332,7 @@ TEST_CASE("figures that hang on ropes among others that don't have the bits of p
                     const lks_object_id line = world.add(
                         rope, {fixed(hand.x - chain.length, hand.y, hand.z), {0, 0, 0, LKS_ROTATION_ONE}});
                     world.pin(line, 0);
-                    lks_attachment_def def = lks_default_attachment_def();
-                    def.object = line;
-                    def.vertex = chain.segments;
-                    def.body = bodies[LKS_HUMANOID_HAND_LEFT];
-                    REQUIRE(lks_world_add_attachment(world, &def, &held) == LKS_OK);
+                    held = attach(world, to_body(line, chain.segments, bodies[LKS_HUMANOID_HAND_LEFT]));
                 }
             }
             std::vector<std::uint64_t> hashes;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 #include "support/sanitised.h"
@@ -71,12 +72,7 @@ std::vector<std::uint64_t> hashes(const Case& c, const Mesh& mesh, lks_simd leve
     world.pin(object, 0);
     world.pin(object, 1);
     if (c.carries) {
-        lks_attachment_def attachment = lks_default_attachment_def();
-        attachment.object = object;
-        attachment.vertex = 7;
-        attachment.body = add_body(world, ball_shape(0.1), fixed(0, 1, 0));
-        lks_attachment_id id{};
-        REQUIRE(lks_world_add_attachment(world, &attachment, &id) == LKS_OK);
+        attach(world, to_body(object, 7, add_body(world, ball_shape(0.1), fixed(0, 1, 0))));
     }
     std::vector<std::uint64_t> found;
     for (int tick = 0; tick < count; ++tick) {

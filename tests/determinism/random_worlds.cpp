@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 #include "support/sanitised.h"
@@ -148,10 +149,8 @@ private:
     void attach() {
         for (int count = objects_.empty() ? 0 : below(10); count > 0; --count) {
             const auto [object, vertices] = any_of(objects_);
-            lks_attachment_def def = lks_default_attachment_def();
-            def.object = object;
-            def.vertex = chance(0.5) ? 0 : static_cast<std::uint32_t>(below(vertices));
-            def.body = any_of(bodies_);
+            const std::uint32_t vertex = chance(0.5) ? 0 : static_cast<std::uint32_t>(below(vertices));
+            lks_attachment_def def = to_body(object, vertex, any_of(bodies_));
             def.compliance = chance(0.3) ? fixed(between(1e-6, 1e-3)) : 0;
             lks_attachment_id id{};
             if (lks_world_add_attachment(world_, &def, &id) == LKS_OK) {

@@ -152,9 +152,7 @@ TEST_CASE("a body that was put beyond its rope comes back without speed") {
         const lks_body_id b = add_body(world, light_box(), fixed(1, 0, 0));
         const lks_joint_id id = add_joint(world, distance(0, 1), a, b);
         world.step(10);
-        lks_transform to = lks_transform_identity();
-        to.position = fixed(1.1, 0, 0);
-        REQUIRE(lks_body_set_transform(world, b, to) == LKS_OK);
+        REQUIRE(lks_body_set_transform(world, b, at(1.1, 0, 0)) == LKS_OK);
         const Undone undone = undo(world, id);
         CHECK(undone.energy < 1e-3);
         CHECK(undone.error < 1e-6);
@@ -170,9 +168,7 @@ TEST_CASE("a load that was put below the end of its rope is back there without b
         const lks_body_id load = add_body(world, light_box(), fixed(0, -1, 0));
         const lks_joint_id id = add_joint(world, distance(0, 1), hook, load);
         world.step(10);
-        lks_transform to = lks_transform_identity();
-        to.position = fixed(0, -1.1, 0);
-        REQUIRE(lks_body_set_transform(world, load, to) == LKS_OK);
+        REQUIRE(lks_body_set_transform(world, load, at(0, -1.1, 0)) == LKS_OK);
         double fastest = 0;
         for (int tick = 0; tick < 60; ++tick) {
             world.step();

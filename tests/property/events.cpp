@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 #include "support/events.h"
@@ -291,13 +292,9 @@ TEST_CASE("what breaks says so, with the force that broke it") {
     joint.break_force = fixed(0.9 * mass_of(world, ball) * 9.81);
     const lks_joint_id id = add_joint(world, joint, anchor, ball);
     const Asset rope = Chain().build();
-    lks_attachment_def hold = lks_default_attachment_def();
-    hold.object = world.add(rope, at(0, 3, 0));
-    hold.body = anchor;
-    hold.point = fixed(0, 3, 0);
+    lks_attachment_def hold = to_body(world.add(rope, at(0, 3, 0)), 0, anchor, fixed(0, 3, 0));
     hold.break_force = fixed(1);
-    lks_attachment_id held{};
-    REQUIRE(lks_world_add_attachment(world, &hold, &held) == LKS_OK);
+    const lks_attachment_id held = attach(world, hold);
     record(world);
     const std::vector<lks_event> all = run(world, 30);
     const std::vector<lks_event> broken = only(all, LKS_EVENT_JOINT_BROKE);

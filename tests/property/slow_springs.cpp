@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 
@@ -79,12 +80,9 @@ TEST_CASE("what hangs on a soft attachment falls as its period has it") {
         const lks_object_id object = world.add(points, at(0, 0, 0));
         world.pin(object, 0);
         const lks_body_id ball = add_body(world, ball_shape(radius), {}, awake());
-        lks_attachment_def def = lks_default_attachment_def();
-        def.object = object;
-        def.body = ball;
+        lks_attachment_def def = to_body(object, 0, ball);
         def.compliance = fixed(compliance_of(period, mass_of(world, ball)));
-        lks_attachment_id id{};
-        REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
+        attach(world, def);
         world.step(ticks);
         const double found = -state_of(world, ball).position.y;
         INFO(period << " s: " << found << " of " << fallen(period, time) << " m");

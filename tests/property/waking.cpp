@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 
@@ -56,14 +57,8 @@ struct OnRopes {
             world.pin(rope, vertex);
             return;
         }
-        lks_attachment_def def = lks_default_attachment_def();
-        def.object = rope;
-        def.vertex = vertex;
-        def.body = *holder;
-        def.point = {place.x, place.y - fixed(0.5), place.z};
-        lks_attachment_id id{};
-        REQUIRE(lks_world_add_attachment(world, &def, &id) == LKS_OK);
-        attachments.push_back(id);
+        const lks_vec3 point{place.x, place.y - fixed(0.5), place.z};
+        attachments.push_back(attach(world, to_body(rope, vertex, *holder, point)));
     }
 
     template <typename Use>

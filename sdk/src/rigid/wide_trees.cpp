@@ -51,9 +51,14 @@ const ArticulatedTree* only_tree(const RigidScene& scene, const FigureRange& fig
     return figure.count(Part::tree) == 1 ? &scene.trees[index_of(scene.figure_parts[first])] : nullptr;
 }
 
+// Those that aren't are solved otherwise, or pushed by what is no joint of theirs.
+bool is_plain(const ArticulatedTree& tree) {
+    return !tree.is_uneven && !tree.is_loaded;
+}
+
 bool fits_lanes(const RigidScene& scene, const ArticulatedTree& tree) {
     // Where something doesn't move there are fewer bodies.
-    bool fits = !tree.is_uneven && !tree.is_loaded && body_count(tree) <= greatest_tree &&
+    bool fits = is_plain(tree) && body_count(tree) <= greatest_tree &&
                 body_count(tree) == tree.joint_end - tree.first_joint + 1;
     for (std::uint32_t i = 0; i < body_count(tree) && fits; ++i) {
         fits = fits_lanes(body_of(scene, tree, i));
@@ -71,10 +76,11 @@ std::uint32_t find_parent(const RigidScene& scene, const ArticulatedTree& tree, 
     return before;
 }
 
+// Whether b is built as a, which fits: then it does, too.
 bool are_alike(const RigidScene& scene, const ArticulatedTree& a, const ArticulatedTree& b) {
     const std::uint32_t count = body_count(a);
-    bool alike = body_count(b) == count && b.joint_end - b.first_joint == a.joint_end - a.first_joint &&
-                 b.is_uneven == a.is_uneven && b.is_loaded == a.is_loaded;
+    bool alike =
+        is_plain(b) && body_count(b) == count && b.joint_end - b.first_joint == a.joint_end - a.first_joint;
     for (std::uint32_t i = 0; i < count && alike; ++i) {
         alike = have_same_units(body_of(scene, a, i), body_of(scene, b, i));
     }
