@@ -8,6 +8,7 @@
 #include "collide/trace.h"
 #include "rigid/attachment.h"
 #include "rigid/body_motion.h"
+#include "rigid/placed_shape.h"
 
 namespace lks {
 namespace {
@@ -16,13 +17,6 @@ using fixed::Vec3;
 
 // A hit is accepted this close in front of the surface: a micrometre.
 constexpr std::int64_t tolerance = std::int64_t{1} << (world_fraction_bits - 20);
-
-// One shape where it is: everything in World.
-struct PlacedShape {
-    Shape shape;
-    Vec3 centre;
-    fixed::Matrix3 axes;
-};
 
 // Calls use(placed, hit) for all that the query is about; the hit says what it is.
 class Everything {
@@ -79,15 +73,9 @@ private:
                 hit.kind = LKS_HIT_BODY;
                 hit.part = part;
                 hit.body = id;
-                use(place(scene.bodies[i], d.shapes[part]), hit);
+                use(place_shape(scene.bodies[i], d.shapes[part]), hit);
             }
         }
-    }
-
-    static PlacedShape place(const Body& body, const BodyShape& s) {
-        return {{s.kind, s.radius, s.half_length, s.half_extents},
-                body.position + fixed::rotate(body.rotation, s.position),
-                shape_axes(body.rotation, s)};
     }
 
     template <typename Use>

@@ -4,8 +4,8 @@
 
 #include "collide/filter.h"
 #include "collide/saturation.h"
-#include "collide/shape.h"
 #include "rigid/attachment.h"
+#include "rigid/placed_shape.h"
 #include "rigid/sleep.h"
 
 namespace lks {
@@ -17,10 +17,9 @@ using fixed::Vec3;
 constexpr std::int64_t touching_distance = (std::int64_t{1} << world_fraction_bits) / 200;
 
 std::int64_t distance_between(const Vec3& point, const Body& body, const BodyShape& shape) {
-    const Vec3 centre = body.position + fixed::rotate(body.rotation, shape.position);
-    const Vec3 local =
-        fixed::rotate_transposed(shape_axes(body.rotation, shape), saturating_subtract(point, centre));
-    return distance_only({shape.kind, shape.radius, shape.half_length, shape.half_extents}, local, 0);
+    const PlacedShape placed = place_shape(body, shape);
+    return distance_only(placed.shape,
+                         fixed::rotate_transposed(placed.axes, saturating_subtract(point, placed.centre)), 0);
 }
 
 // Whether a point is no further than this from the body.
