@@ -142,6 +142,26 @@ TEST_CASE("a ball that bounces is rubbed by what it is thrown back with, as Coul
     }
 }
 
+TEST_CASE("a plate that bounces flat is rubbed by what throws it back, too") {
+    const double down = std::sqrt(2 * g);
+    for (const double restitution : {0.0, 0.5, 0.8}) {
+        for (const std::uint32_t substeps : {8u, 20u}) {
+            World world(world_def(60, substeps));
+            add_slope(world, {0.2, 0.2}, 0);
+            lks_body_def def = rubbing({0.2, 0.2});
+            def.restitution = fixed(restitution);
+            def.velocity = fixed(20, 0, 0);
+            const lks_body_id plate = add_body(world, box_shape(0.5, 0.01, 0.5), fixed(0, 1.01, 0), def);
+            world.step(28); // in the last of these it comes down
+            const double taken = 20 - state_of(world, plate).velocity.x;
+            const double expected = 0.2 * (1 + restitution) * down;
+            INFO("restitution " << restitution << ", " << substeps << " substeps: " << taken << " m/s of "
+                                << expected);
+            CHECK(std::abs(taken / expected - 1) < 0.05);
+        }
+    }
+}
+
 TEST_CASE("balls that strike each other off centre part where they meet, and keep what they turn by") {
     constexpr double radius = 0.2;
     for (const double off : {0.05, 0.2, 0.3}) {
