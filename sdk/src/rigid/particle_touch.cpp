@@ -47,8 +47,8 @@ bool touches(const Object& object, const Body& body, const BodyDescription& desc
 
 bool touch(const lks_world& world, std::uint64_t pair) {
     const auto body = static_cast<std::uint32_t>(pair);
-    return touches(*world.objects[pair >> 32].object, world.rigid.bodies[body],
-                   world.rigid.descriptions[body]);
+    const auto object = static_cast<std::uint32_t>(pair >> 32);
+    return touches(*world.objects[object].object, world.rigid.bodies[body], world.rigid.descriptions[body]);
 }
 
 } // namespace
