@@ -73,4 +73,23 @@ Object* require_object(const lks_world* world, lks_object_id id, lks_result& res
     return object;
 }
 
+Object* require_vertices(const lks_world* world, lks_object_id id, std::uint32_t first, std::uint32_t count,
+                         const void* buffer, const char* function, lks_result& result) {
+    Object* object = require_object(world, id, result);
+    if (object == nullptr) {
+        return nullptr;
+    }
+    if (buffer == nullptr) {
+        result = world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument(function, "a buffer"));
+        return nullptr;
+    }
+    if (first > object->count() || count > object->count() - first) {
+        result = world->fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << count << " vertices from " << first
+                                                                    << " do not exist: the object has "
+                                                                    << object->count() << ".");
+        return nullptr;
+    }
+    return object;
+}
+
 } // namespace lks

@@ -60,4 +60,9 @@ Object* require_object(const lks_world* world, lks_object_id id, lks_result& res
 // LKS_OK, or reported: `index` is no vertex of the object.
 lks_result check_vertex(const lks_world& world, const Object& object, std::uint32_t vertex);
 
+// The object; null, with the result, where that is stale, or the buffer null, or where it has not these
+// vertices.
+Object* require_vertices(const lks_world* world, lks_object_id id, std::uint32_t first, std::uint32_t count,
+                         const void* buffer, const char* function, lks_result& result);
+
 } // namespace lks

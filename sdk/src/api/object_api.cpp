@@ -90,27 +90,6 @@ std::int64_t world_axis(std::int64_t origin, std::int64_t coordinate) {
     return wrapping_add(origin, wrapping_add(coordinate, half) >> coordinate_from_world_shift);
 }
 
-// Null, with the result, where the range of vertices or the buffer is wrong.
-const Object* require_vertices(const lks_world* world, lks_object_id id, std::uint32_t first,
-                               std::uint32_t count, const void* buffer, const char* function,
-                               lks_result& result) {
-    const Object* object = require_object(world, id, result);
-    if (object == nullptr) {
-        return nullptr;
-    }
-    if (buffer == nullptr) {
-        result = world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument(function, "a buffer"));
-        return nullptr;
-    }
-    if (first > object->count() || count > object->count() - first) {
-        result = world->fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << count << " vertices from " << first
-                                                                    << " do not exist: the object has "
-                                                                    << object->count() << ".");
-        return nullptr;
-    }
-    return object;
-}
-
 } // namespace
 
 extern "C" {
