@@ -78,6 +78,16 @@ LKS_API lks_result lks_object_apply_impulse(lks_world* world, lks_object_id obje
 /* The same impulse per kilogram for every free vertex: a change of velocity, m/s. */
 LKS_API lks_result lks_object_add_velocity(lks_world* world, lks_object_id object, lks_vec3 velocity);
 
+/* Elsewhere at once. Nothing is hit on the way and no speed comes of it: the next tick begins there, and
+ * views show it there. Bodies that sleep on the object, or where it comes to, wake. Attachments stay, and
+ * what they are apart afterwards comes together as after lks_world_add_attachment. */
+
+/* Puts `count` vertices from `first` to places in the world, metres, each axis within ±8,388,000 m, exactly;
+ * a pin goes with its vertex. Velocities stay. Refused where the object, with the vertices that stay, would
+ * be longer than 120 m on an axis. Lay many vertices by one call: each one looks at the whole object. */
+LKS_API lks_result lks_object_set_positions(lks_world* world, lks_object_id object, uint32_t first,
+                                            uint32_t count, const lks_vec3* positions);
+
 /* Pins. A pinned vertex has infinite mass and goes from where it is to its target during each tick, in equal
  * parts a substep. Pinning puts the target at the present place; pinning a pinned vertex changes nothing. A
  * target stays until it is changed. Unpinning leaves the vertex with the velocity it had; a vertex that is
