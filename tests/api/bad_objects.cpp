@@ -171,6 +171,8 @@ TEST_CASE_FIXTURE(Fixture, "stale and made-up object ids are refused by every ca
         refused(stale, value, [&] { return lks_object_unpin(world, id, 0); });
         refused(stale, value, [&] { return lks_object_set_pin_target(world, id, 0, {}); });
         refused(stale, value, [&] { return lks_object_set_positions(world, id, 0, 1, &vec); });
+        const lks_transform frame = at(0, 0, 0);
+        refused(stale, value, [&] { return lks_object_teleport(world, id, &frame, &frame); });
         refused(stale, value, [&] { return lks_object_constraint_force(world, id, 0, &force); });
         refused(stale, value, [&] { return lks_object_write_vertices(world, id, &view); });
         CHECK(vec.x == 9);

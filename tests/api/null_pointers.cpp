@@ -49,6 +49,7 @@ TEST_CASE("calls without a world are refused or answer with nothing") {
     CHECK(lks_object_pin(nullptr, object_id, 0) == null);
     CHECK(lks_object_unpin(nullptr, object_id, 0) == null);
     CHECK(lks_object_set_pin_target(nullptr, object_id, 0, vec) == null);
+    CHECK(lks_object_teleport(nullptr, object_id, &transform, &transform) == null);
     CHECK(lks_object_set_positions(nullptr, object_id, 0, 1, &vec) == null);
     CHECK(lks_object_constraint_force(nullptr, object_id, 0, &force) == null);
     CHECK(lks_object_write_vertices(nullptr, object_id, &view) == null);
@@ -150,6 +151,9 @@ TEST_CASE("missing buffers of a living world are refused and named") {
     refused("null", [&] { return lks_object_raw_positions(world, scene.net, 0, 1, nullptr); });
     refused("null", [&] { return lks_object_velocities(world, scene.net, 0, 1, nullptr); });
     refused("null", [&] { return lks_object_set_positions(world, scene.net, 0, 1, nullptr); });
+    const lks_transform transform = at(0, 0, 0);
+    refused("from", [&] { return lks_object_teleport(world, scene.net, nullptr, &transform); });
+    refused("to,", [&] { return lks_object_teleport(world, scene.net, &transform, nullptr); });
     refused("null", [&] { return lks_object_constraint_force(world, scene.rope, 0, nullptr); });
     refused("view", [&] { return lks_object_write_vertices(world, scene.net, nullptr); });
     refused("def", [&] { return lks_world_add_collider(world, nullptr, &collider_id); });

@@ -1,11 +1,39 @@
-// How objects lie, for tests that put things elsewhere.
+// Transforms one after the other, and how objects lie, for tests that put things elsewhere.
 #pragma once
 
+#include <cstdlib>
 #include <vector>
 
 #include "support/bodies.h"
 
 namespace support {
+
+// First b, then a.
+inline lks_rotation product(const lks_rotation& a, const lks_rotation& b) {
+    const auto sum = [](std::int64_t p, std::int64_t q, std::int64_t r, std::int64_t s) {
+        return static_cast<std::int32_t>((p + q + r + s) / LKS_ROTATION_ONE);
+    };
+    const auto m = [](std::int64_t p, std::int64_t q) { return p * q; };
+    return {sum(m(a.w, b.x), m(a.x, b.w), m(a.y, b.z), -m(a.z, b.y)),
+            sum(m(a.w, b.y), m(a.y, b.w), m(a.z, b.x), -m(a.x, b.z)),
+            sum(m(a.w, b.z), m(a.z, b.w), m(a.x, b.y), -m(a.y, b.x)),
+            sum(m(a.w, b.w), -m(a.x, b.x), -m(a.y, b.y), -m(a.z, b.z))};
+}
+
+// What is fixed to a frame, after that has jumped.
+inline lks_transform carried(const lks_transform& what, const lks_transform& from, const lks_transform& to) {
+    const lks_rotation& q = from.rotation;
+    const lks_rotation turn = product(to.rotation, {-q.x, -q.y, -q.z, q.w});
+    const Vector arm = rotate(turn, metres(what.position - from.position));
+    return {to.position + fixed(arm.x, arm.y, arm.z), product(turn, what.rotation)};
+}
+
+inline void teleport(const World& world, lks_object_id object, const lks_transform& from,
+                     const lks_transform& to) {
+    const lks_result result = lks_object_teleport(world, object, &from, &to);
+    INFO(world.message());
+    REQUIRE(result == LKS_OK);
+}
 
 inline void lay(const World& world, lks_object_id object, std::uint32_t first,
                 const std::vector<lks_vec3>& positions) {

@@ -81,7 +81,7 @@ LKS_API lks_fixed lks_world_spin_limit(const lks_world* world);
 /* Of the body's frame. The position is exact; the rotation is rounded to 2^-30. */
 LKS_API lks_result lks_body_transform(const lks_world* world, lks_body_id body, lks_transform* transform);
 /* Puts it there at once; its velocity stays. Who touched it or is jointed to it wakes, and whom a kinematic
- * one touches there. */
+ * one touches there. Cloth and ropes that are attached to it stay behind: lks_object_teleport. */
 LKS_API lks_result lks_body_set_transform(lks_world* world, lks_body_id body, lks_transform transform);
 /* m/s of the centre of mass, and rad/s, in world axes. Either may be null. */
 LKS_API lks_result lks_body_velocity(const lks_world* world, lks_body_id body, lks_vec3* velocity,

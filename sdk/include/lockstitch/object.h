@@ -82,6 +82,18 @@ LKS_API lks_result lks_object_add_velocity(lks_world* world, lks_object_id objec
  * views show it there. Bodies that sleep on the object, or where it comes to, wake. Attachments stay, and
  * what they are apart afterwards comes together as after lks_world_add_attachment. */
 
+/* Carries the object along as if it were fixed to a frame that was at `from` and is at `to`: a cape with the
+ * chest of its wearer, before and after lks_body_set_transform or lks_ragdoll_set_pose. Pin targets go with
+ * it, and velocities turn with it. Both positions are within ±8,388,000 m; refused where the object's origin
+ * would not be, or, where it turns, a vertex not within ±64 m of the object's middle on each axis.
+ *
+ * Where both rotations are the same, no raw position and no velocity changes a bit, and the origin goes by
+ * exactly to - from: the object moves as one that was made there. Where they differ each coordinate is
+ * rounded once, by half a unit of 2^-56 m, and besides within 2^-60 of its distance from the object's middle;
+ * all of them alike within 2^-60 of the middle's distance from `from`. Quarter and half turns about the
+ * world's axes are exact. A pin's target that leaves its range by a turn is clamped and counted. */
+LKS_API lks_result lks_object_teleport(lks_world* world, lks_object_id object, const lks_transform* from,
+                                       const lks_transform* to);
 /* Puts `count` vertices from `first` to places in the world, metres, each axis within ±8,388,000 m, exactly;
  * a pin goes with its vertex. Velocities stay. Refused where the object, with the vertices that stay, would
  * be longer than 120 m on an axis. Lay many vertices by one call: each one looks at the whole object. */

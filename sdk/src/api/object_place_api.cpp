@@ -4,6 +4,7 @@
 #include "api/checks.h"
 #include "collide/saturation.h"
 #include "rigid/particle_touch.h"
+#include "solver/carrying.h"
 #include "solver/laying.h"
 
 using namespace lks;
@@ -15,6 +16,37 @@ lks_result check_place(const lks_world& world, const char* name, const lks_vec3&
                ? LKS_OK
                : world.fail(LKS_ERROR_INVALID_ARGUMENT,
                             out_of_range(name, position, "m", world_position_limit));
+}
+
+lks_result check_frame(const lks_world& world, const char* name, const lks_transform& frame) {
+    const lks_result result = check_place(world, name, frame.position);
+    return result != LKS_OK ? result : check_rotation(world, frame.rotation);
+}
+
+Frame frame_of(const lks_transform& transform) {
+    return {to_vec3(transform.position), to_rotation(transform.rotation)};
+}
+
+lks_vec3 in_world_units(const Coordinates& c) {
+    return {world_from_coordinate(c.x), world_from_coordinate(c.y), world_from_coordinate(c.z)};
+}
+
+lks_result check_carrying(const lks_world& world, const Object& object, const Carrying& carrying) {
+    if (const lks_result result =
+            check_place(world, "place of the object's origin afterwards", from_vec3(carrying.origin));
+        result != LKS_OK) {
+        return result;
+    }
+    const auto fits = [](std::int64_t c) { return within(c, coordinate_limit); };
+    for (std::uint32_t i = 0; carrying.turn.turns && i < object.count(); ++i) {
+        if (const Coordinates x = carried_position(carrying, object.position(i));
+            !fits(x.x) || !fits(x.y) || !fits(x.z)) {
+            return world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                              out_of_range("way from the object's middle to one of its vertices afterwards",
+                                           in_world_units(x), "m", LKS_FIXED(64)));
+        }
+    }
+    return LKS_OK;
 }
 
 lks_result check_laid(const lks_world& world, const Laid& laid, const Bounds& bounds) {
@@ -42,6 +74,30 @@ void put_elsewhere(lks_world& world, Object& object, const Put& put) {
 } // namespace
 
 extern "C" {
+
+lks_result lks_object_teleport(lks_world* world, lks_object_id object, const lks_transform* from,
+                               const lks_transform* to) {
+    lks_result result = LKS_OK;
+    Object* found = require_object(world, object, result);
+    if (found == nullptr) {
+        return result;
+    }
+    if (from == nullptr || to == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT,
+                           null_argument("lks_object_teleport", from == nullptr ? "from" : "to"));
+    }
+    result = check_frame(*world, "position of from", *from);
+    result = result != LKS_OK ? result : check_frame(*world, "position of to", *to);
+    if (result != LKS_OK) {
+        return result;
+    }
+    const Carrying carrying = plan_carrying(*world->kernels, *found, frame_of(*from), frame_of(*to));
+    result = check_carrying(*world, *found, carrying);
+    if (result == LKS_OK) {
+        put_elsewhere(*world, *found, [&] { return carry(*found, carrying); });
+    }
+    return result;
+}
 
 lks_result lks_object_set_positions(lks_world* world, lks_object_id object, uint32_t first, uint32_t count,
                                     const lks_vec3* positions) {
