@@ -162,7 +162,7 @@ private:
     // What is refused is so in all of them.
     void give_input() {
         const lks_body_id body = any_of(bodies_);
-        switch (below(6)) {
+        switch (below(8)) {
         case 0:
             lks_body_apply_impulse(world_, body, fixed(between(-50, 50), between(0, 50), between(-50, 50)),
                                    place(1));
@@ -185,6 +185,21 @@ private:
                 const auto [object, vertices] = any_of(objects_);
                 lks_object_apply_impulse(world_, object, static_cast<std::uint32_t>(below(vertices)),
                                          fixed(between(-0.1, 0.1), 0.1, between(-0.1, 0.1)));
+            }
+            break;
+        case 5:
+            if (!objects_.empty() && chance(0.3)) {
+                const lks_transform from{place(1), turned()};
+                const lks_transform to{place(between(0, 3)), chance(0.3) ? from.rotation : turned()};
+                lks_object_teleport(world_, any_of(objects_).first, &from, &to);
+            }
+            break;
+        case 6:
+            if (!objects_.empty() && chance(0.3)) {
+                const lks_vec3 places[] = {place(0.9), place(1), place(1.1)};
+                const auto [object, vertices] = any_of(objects_);
+                lks_object_set_positions(world_, object, static_cast<std::uint32_t>(below(vertices - 2)), 3,
+                                         places);
             }
             break;
         default:
