@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "stability/support/nets.h"
 #include "stability/support/table.h"
@@ -104,4 +105,67 @@ TEST_CASE("a press goes through the ground with a cloth under it") {
     }
     judge("cloth under a press", trial, 120, {600, 5, 2, 0.3},
           [&](double opened) { trial.move_to(press, height(1 - opened)); });
+}
+
+struct Crush {
+    double room;    // m between opposite walls where they are nearest; negative: into each other
+    double stretch; // percent, while it is shut
+    double joules;  // kinetic, while it is shut
+    double opened;  // the same afterwards
+    double off;     // percent of the edges, in the end: nothing keeps a cloth from staying folded into itself
+    double rest;    // J, kinetic, in the end
+};
+
+// From 2 m apart within half a second, and back after two. The cloth hangs askew: one that lies along the
+// walls has nowhere to fold to, and is crushed within its plane.
+void crush(const std::string& scene, const Crush& bounds) {
+    const Net net = small_net();
+    const Asset asset = net.build();
+    Subject subject = subject_of(net, asset);
+    subject.transform = turned(at(0, 0.5, 0), 1, 0.3, 0, 20);
+    Trial trial(subject);
+    const Vector ways[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    constexpr double thickness = 0.5;
+    const auto place = [&](const Vector& way, double shut) {
+        const double away = thickness + 1 - (1 - bounds.room / 2) * shut;
+        return fixed(way.x * away, way.y * away, way.z * away);
+    };
+    const auto extent = [](double way) { return way == 0 ? 3 : thickness; };
+    std::vector<std::size_t> walls;
+    for (const Vector& way : ways) {
+        walls.push_back(trial.add(block(extent(way.x), extent(way.y), extent(way.z), place(way, 0))));
+    }
+    const auto move = [&](double shut) {
+        for (std::size_t i = 0; i < walls.size(); ++i) {
+            trial.move_to(walls[i], place(ways[i], shut));
+        }
+        trial.run(1);
+    };
+    trial.run(15);
+    trial.begin();
+    for (int tick = 1; tick <= 30; ++tick) {
+        move(tick / 30.0);
+    }
+    trial.run(120);
+    expect_worst_stretch_at_most(scene + ", closed", trial, bounds.stretch);
+    expect_kinetic_energy_at_most(scene + ", closed", trial, bounds.joules);
+    expect_last_kinetic_energy_at_most(scene + ", closed", trial, 1e-6);
+    trial.begin();
+    for (int tick = 1; tick <= 30; ++tick) {
+        move(1 - tick / 30.0);
+    }
+    trial.run(270);
+    expect_kinetic_energy_at_most(scene + ", opened", trial, bounds.opened);
+    expect_last_kinetic_energy_at_most(scene + ", opened", trial, bounds.rest);
+    expect_last_off_at_most(scene + ", opened", trial, bounds.off);
+    trial.begin();
+    trial.run(1);
+    expect_depth_at_most(scene + ", opened, at the end", trial, 1e-5);
+    expect_nothing_clamped(trial);
+}
+
+TEST_CASE("six walls close on a cloth from all sides and open again") {
+    crush("cloth between six walls, 40 cm of room", {0.4, 300, 60, 30, 15, 0.1});
+    crush("cloth between six walls, 20 cm of room", {0.2, 400, 60, 90, 40, 0.1});
+    crush("cloth between six walls, no room", {-0.2, 400, 250, 1500, 80, 10});
 }
