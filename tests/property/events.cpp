@@ -22,12 +22,6 @@ std::vector<lks_event> only(const std::vector<lks_event>& all, lks_event_kind ki
     return some;
 }
 
-bool same(const lks_event& a, const lks_event& b) {
-    return a.kind == b.kind && a.tick == b.tick && a.body_a.index == b.body_a.index &&
-           a.body_b.index == b.body_b.index && a.body_b.generation == b.body_b.generation &&
-           a.collider.index == b.collider.index && a.strength == b.strength;
-}
-
 // Of those that load a contact, or unload it.
 std::vector<lks_event> loads(const std::vector<lks_event>& all, lks_event_kind kind) {
     std::vector<lks_event> some;

@@ -51,12 +51,6 @@ struct Fall {
     std::uint64_t start = 0;
 };
 
-bool same(const lks_event& a, const lks_event& b) {
-    return a.kind == b.kind && a.tick == b.tick && a.body_a.index == b.body_a.index &&
-           a.object.index == b.object.index && a.object.generation == b.object.generation &&
-           a.strength == b.strength;
-}
-
 } // namespace
 
 TEST_CASE("a rope that falls on a table pushes it with all the momentum that gravity gives it") {

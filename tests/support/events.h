@@ -32,4 +32,15 @@ inline std::vector<lks_event> run(World& world, int ticks) {
     return all;
 }
 
+// In every field.
+inline bool same(const lks_event& a, const lks_event& b) {
+    const auto id = [](const auto& x, const auto& y) {
+        return x.index == y.index && x.generation == y.generation;
+    };
+    return a.kind == b.kind && a.tick == b.tick && id(a.body_a, b.body_a) && id(a.body_b, b.body_b) &&
+           id(a.collider, b.collider) && id(a.joint, b.joint) && id(a.attachment, b.attachment) &&
+           id(a.object, b.object) && a.strength == b.strength && same(a.point, b.point) &&
+           same(a.normal, b.normal);
+}
+
 } // namespace support

@@ -63,6 +63,12 @@ typedef struct lks_event {
                            unloaded: that of a tick which pushes as its last substep; of
                            particles the sum of the sizes of theirs, with friction; what broke a joint or an
                            attachment, N or N·m; saturates at 8,388,607 */
+    lks_vec3 point;  /* where, in the world, metres. Of a contact, half way between the two surfaces, where it
+                        gave most in this tick, to what they move in a substep: the middle of the points that
+                        push, weighed by their pushes. Of particles, that of them which pushed most. Of a
+                        joint, its point of body_b; of an attachment, its vertex. 0 where nothing pushed in
+                        this tick, as for most of what ends, and for sleep */
+    lks_vec3 normal; /* of a contact or particles, out of body_a there, of length one; else 0 */
 } lks_event;
 
 /* From now on. `kinds` is made of LKS_EVENT_BITs, 0: none. `least_impulse` (N·s, 0 .. 8000000) is the

@@ -22,7 +22,7 @@ public:
     void find() {
         scene_.coupled.clear();
         scene_.object_pairs.clear();
-        scene_.object_impulses.clear();
+        scene_.object_pushes.clear();
         scene_.is_coupled.clear();
         scene_.held.clear();
         if (scene_.empty() || world_.objects.empty()) {
@@ -78,7 +78,7 @@ private:
         scene_.overlaps.for_each_pair(
             [this](std::uint32_t i, std::uint32_t j) { add_pair(scene_.boxed[i], scene_.boxed[j]); });
         std::sort(scene_.object_pairs.begin(), scene_.object_pairs.end());
-        static_cast<void>(scene_.object_impulses.resize(scene_.object_pairs.size())); // within its room
+        static_cast<void>(scene_.object_pushes.resize(scene_.object_pairs.size())); // within its room
     }
 
     // Bodies stand before objects.

@@ -6,7 +6,7 @@
 
 namespace lks {
 
-// At the beginning of a tick: fills the scene's is_coupled, coupled, object_pairs and object_impulses. Pairs
+// At the beginning of a tick: fills the scene's is_coupled, coupled, object_pairs and object_pushes. Pairs
 // beyond their room are left out and counted.
 void find_coupled(lks_world& world);
 

@@ -33,6 +33,12 @@ lks_event make_event(const lks_world& world, lks_event_kind kind) {
     return event;
 }
 
+void set_place(lks_event& event, const fixed::Vec3& place, const fixed::Direction& normal) {
+    const auto widen = [](std::int32_t c) { return std::int64_t{c} << (world_fraction_bits - 30); };
+    event.point = {place.x, place.y, place.z};
+    event.normal = {widen(normal.x), widen(normal.y), widen(normal.z)};
+}
+
 lks_body_id body_id(const RigidScene& scene, std::uint32_t index) {
     return {index, scene.body_slots[index].generation};
 }
@@ -62,6 +68,10 @@ Pair pair_of(const ContactKey& key) {
 struct PairPushes {
     std::int64_t given = 0;
     std::int64_t to_come = 0;
+    // Of the contact that gave most in one substep.
+    std::int64_t most = -1;
+    fixed::Vec3 place{};
+    fixed::Direction normal{};
 };
 // What is remembered of a pair at the end of a tick.
 struct PairMemory {
@@ -93,7 +103,7 @@ public:
             }
             if (begins) {
                 const std::int64_t whole = fixed::saturating_add(pushes.given, pushes.to_come);
-                report(pair, LKS_EVENT_CONTACT_BEGIN, impulse_of(pair, whole));
+                report(pair, pushes, LKS_EVENT_CONTACT_BEGIN, impulse_of(pair, whole));
             }
             const std::int64_t load = impulse_of(pair, of_tick(now));
             const bool was_loaded = before.touches && reaches_threshold(load_before(pair, before));
@@ -101,10 +111,11 @@ public:
                 tell_hit(pair, pushes, before.forgotten ? PairMemory{} : before, now, load);
             }
             if (was_loaded != (now.touches && reaches_threshold(load))) {
-                report(pair, was_loaded ? LKS_EVENT_CONTACT_UNLOADED : LKS_EVENT_CONTACT_LOADED, load);
+                report(pair, pushes, was_loaded ? LKS_EVENT_CONTACT_UNLOADED : LKS_EVENT_CONTACT_LOADED,
+                       load);
             }
             if (!now.touches) {
-                report(pair, LKS_EVENT_CONTACT_END, 0);
+                report(pair, pushes, LKS_EVENT_CONTACT_END, 0);
             }
         }
     }
@@ -138,7 +149,7 @@ private:
         }
         const std::int64_t impulse = impulse_of(pair, speed);
         if (reaches_threshold(impulse)) {
-            report(pair, LKS_EVENT_CONTACT_HIT, impulse);
+            report(pair, pushes, LKS_EVENT_CONTACT_HIT, impulse);
         }
     }
 
@@ -155,8 +166,19 @@ private:
             const ContactBodies bodies{scene_.bodies[pair.body_a], other_body(scene_, pair.other)};
             pushes.given = fixed::saturating_add(pushes.given, contact.given_speed);
             pushes.to_come = std::max(pushes.to_come, speed_to_come(contact, bodies));
+            keep_place(contact, scene_.contact_marks[contact_], bodies, pushes);
         }
         return pushes;
+    }
+
+    // What has given nothing yet is told of where it is now.
+    static void keep_place(const Contact& contact, const ContactMark& mark, const ContactBodies& bodies,
+                           PairPushes& pushes) {
+        if (mark.most > pushes.most) {
+            pushes.most = mark.most;
+            pushes.place = mark.most != 0 ? mark.place : place_of(contact, bodies.a, bodies.b);
+            pushes.normal = mark.most != 0 ? mark.normal : contact.normal();
+        }
     }
 
     PairMemory take(const Array<ContactMemory>& memories, std::size_t& at, const Pair& pair) const {
@@ -191,7 +213,7 @@ private:
                    : impulse_of(pair, of_tick(before));
     }
 
-    void report(const Pair& pair, lks_event_kind kind, std::int64_t impulse) {
+    void report(const Pair& pair, const PairPushes& pushes, lks_event_kind kind, std::int64_t impulse) {
         lks_event event = make_event(world_, kind);
         event.body_a = body_id(scene_, pair.body_a);
         if (pair.other < other_is_collider) {
@@ -201,6 +223,7 @@ private:
             event.collider = {index, world_.colliders[index].generation};
         }
         event.strength = impulse;
+        set_place(event, pushes.place, pushes.normal);
         add(world_, event);
     }
 
@@ -232,7 +255,8 @@ void record_particles(lks_world& world) {
     }
     const RigidScene& scene = world.rigid;
     for (std::size_t i = 0; i < scene.object_pairs.size(); ++i) {
-        const std::int64_t impulse = std::min(scene.object_impulses[i], greatest_strength);
+        const ParticlePushes& pushes = scene.object_pushes[i];
+        const std::int64_t impulse = std::min(pushes.impulse, greatest_strength);
         if (impulse == 0 || impulse < world.event_log.least_impulse) {
             continue;
         }
@@ -241,6 +265,7 @@ void record_particles(lks_world& world) {
         event.body_a = body_id(scene, static_cast<std::uint32_t>(scene.object_pairs[i]));
         event.object = {object, world.objects[object].generation};
         event.strength = impulse;
+        set_place(event, pushes.place, pushes.normal);
         add(world, event);
     }
 }
@@ -261,6 +286,8 @@ void record_break(lks_world& world, const Joint& joint, std::uint32_t index) {
     event.strength =
         by_force ? mean_strength(world, joint.pushed, greater)
                  : mean_strength(world, joint.turned, greater.times_power_of_two(-2 * joint.constants.reach));
+    const Body& b = scene.bodies[d.body_b];
+    set_place(event, b.position + fixed::rotate(b.rotation, d.point_b), {0, 0, 0});
     add(world, event);
 }
 
@@ -273,8 +300,9 @@ void record_break(lks_world& world, const Attachment& attachment, std::uint32_t 
     if (attachment.description.kind == LKS_ATTACHMENT_TO_BODY) {
         event.body_a = body_id(world.rigid, attachment.description.other);
     }
-    event.strength = mean_strength(world, attachment.pushed,
-                                   greater_inverse_mass(attachment, sides_of(world, attachment)));
+    const AttachmentSides sides = sides_of(world, attachment);
+    event.strength = mean_strength(world, attachment.pushed, greater_inverse_mass(attachment, sides));
+    set_place(event, particle_position(sides.object, attachment.description.particle), {0, 0, 0});
     add(world, event);
 }
 

@@ -18,6 +18,9 @@ using fixed::Vec3;
 std::int64_t to_world(std::int64_t coordinate) {
     return fixed::shift_right_rounded(coordinate, coordinate_from_world_shift);
 }
+Vec3 to_world(const Vec3& v) {
+    return {to_world(v.x), to_world(v.y), to_world(v.z)};
+}
 
 // One shape of a body, in the coordinates of one object.
 class BodyShapePlace {
@@ -66,34 +69,42 @@ private:
 // Of a body that does not give way: a kinematic one goes on as before.
 class Reaction : public ContactReaction {
 public:
-    // impulse: null, or what they push is added to it.
+    // pushes: null, or what they push is added to it.
     Reaction(const HeldParticles& held, const Object& object, const Body& body, const MotionRate& rate,
-             SweptParticles& swept, std::int64_t* impulse)
+             SweptParticles& swept, ParticlePushes* pushes)
         : held_(held), swept_(swept), object_(object), inverse_mass_(body.effective_inverse_mass()),
-          substeps_per_second_(static_cast<std::uint64_t>(rate.substeps_per_second)), impulse_(impulse) {}
+          substeps_per_second_(static_cast<std::uint64_t>(rate.substeps_per_second)), pushes_(pushes) {}
     bool ignores(std::uint32_t particle) const override { return held_.contain(particle); }
     Vec3 give_way(std::uint32_t particle, const Vec3& correction) override {
         moved(particle);
-        if (adds_up()) {
-            add_push(particle, to_world(saturate(fixed::length(correction))));
+        fixed::NormalisedVector way{};
+        if (adds_up() && fixed::normalise(correction, way)) {
+            add_push(particle, to_world(saturate(fixed::length(correction))), correction, way.direction);
         }
         return correction;
     }
 
 protected:
-    // A push of this substep, World, in the greater inverse mass of the two.
-    void add_push(std::uint32_t particle, std::int64_t push) const {
+    // A push of this substep along a way, World, in the greater inverse mass of the two.
+    void add_push(std::uint32_t particle, std::int64_t push, const Vec3& correction,
+                  const fixed::Direction& way) const {
         const InverseMass own = particle_inverse_mass(object_, particle);
         const InverseMass& greater = pair_shares(own, inverse_mass_).a == direction_one ? own : inverse_mass_;
-        if (greater.mantissa != 0) {
-            const Scaled speed = Scaled::from_fixed(fixed::magnitude(push), world_fraction_bits) *
-                                 Scaled::from_u64(substeps_per_second_);
-            *impulse_ = fixed::saturating_add(*impulse_,
-                                              (speed / to_scaled(greater)).to_i64_fixed(world_fraction_bits));
+        if (greater.mantissa == 0) {
+            return;
+        }
+        const Scaled speed = Scaled::from_fixed(fixed::magnitude(push), world_fraction_bits) *
+                             Scaled::from_u64(substeps_per_second_);
+        const std::int64_t impulse = (speed / to_scaled(greater)).to_i64_fixed(world_fraction_bits);
+        pushes_->impulse = fixed::saturating_add(pushes_->impulse, impulse);
+        if (impulse > pushes_->most) {
+            pushes_->most = impulse;
+            pushes_->place = particle_position(object_, particle) + to_world(correction);
+            pushes_->normal = way;
         }
     }
     void moved(std::uint32_t particle) const { swept_.moved(particle); }
-    bool adds_up() const { return impulse_ != nullptr; }
+    bool adds_up() const { return pushes_ != nullptr; }
 
 private:
     HeldParticles held_;
@@ -101,7 +112,7 @@ private:
     const Object& object_;
     InverseMass inverse_mass_;
     std::uint64_t substeps_per_second_;
-    std::int64_t* impulse_;
+    ParticlePushes* pushes_;
 };
 
 // What hits it pushes it.
@@ -126,7 +137,7 @@ public:
         push(body_, side, fixed::scale(way.direction, p), p, -1);
         place_.follow(frame_, object_.origin);
         if (adds_up()) {
-            add_push(particle, p);
+            add_push(particle, p, correction, way.direction);
         }
         return fixed::scale(way.direction, fixed::scale_component(shares.a, coordinate_from_world(p)));
     }
@@ -177,12 +188,12 @@ HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t obje
 
 void collide_with_body(Object& object, Body& body, const BodyDescription& description,
                        const HeldParticles& held, const MotionRate& rate, const Kernels& kernels,
-                       SweptParticles& swept, std::int64_t* impulse) {
+                       SweptParticles& swept, ParticlePushes* pushes) {
     const ParticleArrays particles{object.axis(0),       object.axis(1),       object.axis(2),
                                    object.start_axis(0), object.start_axis(1), object.start_axis(2)};
     const lks_asset& asset = object.asset();
     const Bounds bounds = swept.bounds();
-    Reaction reaction(held, object, body, rate, swept, impulse);
+    Reaction reaction(held, object, body, rate, swept, pushes);
     for (std::uint32_t i = 0; i < description.shape_count; ++i) {
         const BodyShapePlace place(body, description.shapes[i]);
         ContactFrame frame = make_contact_frame(place.way(description.surface), object.origin, bounds,

@@ -6,6 +6,7 @@
 #include "kernels/kernels.h"
 #include "rigid/attachment.h"
 #include "rigid/body_motion.h"
+#include "rigid/particle_pushes.h"
 #include "rigid/swept_particles.h"
 #include "solver/object.h"
 #include "solver/step_rate.h"
@@ -23,9 +24,9 @@ HeldParticles held_particles(const Array<HeldParticle>& held, std::uint32_t obje
 
 // All particles of the object against all shapes of the body, in this substep. A sleeping body does not give
 // way; how fast what struck it would have made it is added to its `struck`. What they push is added to
-// `impulse`, World N·s, if anybody wants to know.
+// `pushes`, if anybody wants to know.
 void collide_with_body(Object& object, Body& body, const BodyDescription& description,
                        const HeldParticles& held, const MotionRate& rate, const Kernels& kernels,
-                       SweptParticles& swept, std::int64_t* impulse);
+                       SweptParticles& swept, ParticlePushes* pushes);
 
 } // namespace lks

@@ -23,17 +23,17 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       collider_bodies(allocator), pieces(allocator), piece_extents(allocator), piece_starts(allocator),
       ways(allocator), travels(allocator), overlaps(allocator), boxed(allocator), pairs(allocator),
       sorting(allocator), found(allocator), found_order(allocator), contacts(allocator),
-      contact_points(allocator), contacts_act(allocator), contact_moves(allocator), next_memories(allocator),
-      islands(allocator), tree_roots(allocator), tree_links(allocator), tree_bodies(allocator),
-      tree_joints(allocator), articulated(allocator), trees(allocator), held_joints(allocator),
-      uneven_joints(allocator), figures(allocator), figure_parts(allocator), figure_ranges(allocator),
-      figure_bundles(allocator), wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator),
-      figure_shares(allocator), substep_motions(allocator), predicted_speeds(allocator),
-      figure_masses(allocator), figures_changed(allocator), strained_figures(allocator),
-      figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator), is_coupled(allocator),
-      coupled(allocator), object_pairs(allocator), object_impulses(allocator), object_touches(allocator),
-      held(allocator), rope_loads(allocator), particle_loads(allocator), loaded_bodies(allocator),
-      loaded_joints(allocator), tree_kernels_(tree_kernels) {}
+      contact_points(allocator), contact_marks(allocator), contacts_act(allocator), contact_moves(allocator),
+      next_memories(allocator), islands(allocator), tree_roots(allocator), tree_links(allocator),
+      tree_bodies(allocator), tree_joints(allocator), articulated(allocator), trees(allocator),
+      held_joints(allocator), uneven_joints(allocator), figures(allocator), figure_parts(allocator),
+      figure_ranges(allocator), figure_bundles(allocator), wide_bodies(allocator), wide_joints(allocator),
+      shared_contacts(allocator), figure_shares(allocator), substep_motions(allocator),
+      predicted_speeds(allocator), figure_masses(allocator), figures_changed(allocator),
+      strained_figures(allocator), figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator),
+      is_coupled(allocator), coupled(allocator), object_pairs(allocator), object_pushes(allocator),
+      object_touches(allocator), held(allocator), rope_loads(allocator), particle_loads(allocator),
+      loaded_bodies(allocator), loaded_joints(allocator), tree_kernels_(tree_kernels) {}
 
 // A bundle takes the same for any number of trees.
 std::size_t RigidScene::wide_room(std::size_t count) const {
@@ -55,6 +55,7 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         overlaps.reserve(static_cast<std::uint32_t>(boxes)) && boxed.reserve(boxes) &&
         pairs.reserve(pair_capacity(body_count)) && contacts.reserve(contact_capacity(body_count)) &&
         contact_points.reserve(greatest_point_count * contact_capacity(body_count)) &&
+        contact_marks.reserve(contact_capacity(body_count)) &&
         contacts_act.reserve(contact_capacity(body_count)) && contact_moves.reserve(body_count + 1) &&
         found.reserve(contact_capacity(body_count)) && found_order.reserve(contact_capacity(body_count)) &&
         memories.reserve(contact_capacity(body_count)) &&
@@ -69,7 +70,7 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         figure_pairs.reserve(contact_capacity(body_count)) && figure_bundles.reserve(body_count) &&
         wide_bodies.reserve(wide_room(body_count)) &&
         object_pairs.reserve(object_pair_capacity(object_room_, body_count)) &&
-        object_impulses.reserve(object_pair_capacity(object_room_, body_count)) &&
+        object_pushes.reserve(object_pair_capacity(object_room_, body_count)) &&
         object_touches.reserve(object_pair_capacity(object_room_, body_count));
     body_room_ = done ? std::max(body_room_, body_count) : body_room_;
     collider_room_ = done ? std::max(collider_room_, collider_count) : collider_room_;

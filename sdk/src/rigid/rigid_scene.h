@@ -11,11 +11,12 @@
 #include "rigid/attachment.h"
 #include "rigid/body.h"
 #include "rigid/body_definition.h"
-#include "rigid/contact.h"
+#include "rigid/contact_mark.h"
 #include "rigid/figure_parts.h"
 #include "rigid/held_tree_parts.h"
 #include "rigid/joint.h"
 #include "rigid/overlaps.h"
+#include "rigid/particle_pushes.h"
 #include "rigid/rope_load.h"
 #include "rigid/substep_motion.h"
 #include "rigid/uneven_tree_parts.h"
@@ -98,6 +99,7 @@ struct RigidScene {
     Array<std::uint32_t> found_order;
     Array<Contact> contacts;
     Array<ContactPoint> contact_points; // contact by contact
+    Array<ContactMark> contact_marks;   // by contact, while events want to know
     // By contact: whether any of its points is active in this substep. More than half only come near, and
     // would push the others' numbers out of the cache if each stage looked at them.
     Array<std::uint8_t> contacts_act;
@@ -137,7 +139,7 @@ struct RigidScene {
     Array<std::uint8_t> is_coupled;
     Array<std::uint32_t> coupled;
     Array<std::uint64_t> object_pairs;
-    Array<std::int64_t> object_impulses; // beside them: what particles pushed, World N·s, for events
+    Array<ParticlePushes> object_pushes; // beside them: what particles pushed, for events
     Array<std::uint8_t> object_touches;  // beside them: asleep and touched when the tick began
     Array<HeldParticle> held;            // ascending
     // Of ropes that bear loads (rigid/rope_loads.h), ascending, and room for what that makes of particles.

@@ -524,7 +524,7 @@ void RigidSubstep::collide_objects(std::uint32_t substep) {
             const auto body = static_cast<std::uint32_t>(scene_.object_pairs[pair]);
             collide_with_body(object, scene_.bodies[body], scene_.descriptions[body],
                               held_particles(scene_.held, index, body), rate_, *world_.kernels, swept,
-                              world_.event_log.wants_particles() ? &scene_.object_impulses[pair] : nullptr);
+                              world_.event_log.wants_particles() ? &scene_.object_pushes[pair] : nullptr);
             touched = true;
         }
         if (touched) {
@@ -564,6 +564,16 @@ ContactSpeeds RigidSubstep::predicted_speeds(const Contact& contact) {
     return {of(bodies.a, contact.key.body_a), of(bodies.b, contact.key.other)};
 }
 
+// For events: where they give most. Also of those that don't act, but were struck.
+void RigidSubstep::mark_contacts() {
+    in_contact_blocks([this](std::uint32_t first, std::uint32_t end) {
+        for (std::uint32_t i = first; i < end; ++i) {
+            const ContactBodies bodies = bodies_of(scene_.contacts[i]);
+            look(scene_.contact_marks[i], scene_.contacts[i], bodies.a, bodies.b);
+        }
+    });
+}
+
 void RigidSubstep::finish() {
     if (any_restitution_) {
         scene_.predicted_speeds.clear();
@@ -598,6 +608,9 @@ void RigidSubstep::finish() {
     }
     if (any_restitution_) {
         restore_speeds();
+    }
+    if (world_.event_log.wants_contacts()) {
+        mark_contacts();
     }
     const auto undo = [this](std::uint32_t i) {
         if (scene_.acts(i)) {

@@ -67,6 +67,7 @@ private:
     bool may_gain(const FigureRange& figure) const;
     ContactSpeeds predicted_speeds(const Contact& contact);
     void restore_speeds();
+    void mark_contacts();
     bool is_strained(const FigureRange& figure) const;
     bool are_strained(const Contact& shared) const;
     bool relieve_strained();

@@ -38,6 +38,10 @@ public:
         if (moves) {
             find_contacts(world_, team_);
         }
+        if (world_.event_log.wants_contacts()) {
+            scene_.contact_marks.clear();
+            static_cast<void>(scene_.contact_marks.resize(scene_.contacts.size())); // within its room
+        }
         find_articulations(scene_);
         find_figures(scene_);
         find_bundles(scene_);
