@@ -76,6 +76,13 @@ struct Chained {
         }
     }
 
+    void set_swing(double degrees) {
+        lks_limits limits{};
+        REQUIRE(lks_joint_limits(world, joints[1], &limits) == LKS_OK);
+        limits.swing_limit = fixed(degrees);
+        REQUIRE(lks_joint_set_limits(world, joints[1], &limits) == LKS_OK);
+    }
+
     void set_motor(double torque, const lks_rotation& target) {
         const lks_motor motor{fixed(torque), fixed(0.1), target};
         REQUIRE(lks_joint_set_motor(world, joints[2], &motor) == LKS_OK);
@@ -105,6 +112,8 @@ const std::function<void(Chained&)> changes[] = {
         REQUIRE(lks_world_remove_joint(c.world, c.joints[3]) == LKS_OK);
         c.joints[3] = c.join(3, 20, 0.03);
     },
+    [](Chained& c) { c.set_swing(15); },
+    [](Chained& c) { c.set_swing(180); },
     [](Chained& c) { REQUIRE(lks_world_remove_joint(c.world, c.joints[1]) == LKS_OK); },
     [](Chained& c) { REQUIRE(lks_world_remove_joint(c.world, c.joints.back()) == LKS_OK); },
     [](Chained& c) { REQUIRE(lks_world_remove_body(c.world, c.bodies[4]) == LKS_OK); },

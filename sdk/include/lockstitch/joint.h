@@ -10,9 +10,9 @@
  *   fixed     nothing moves
  *   distance  the points stay from distance_min to distance_max apart. A joint without compliance that is
  *             made, or whose body is put, beyond these brings them back without giving speed, by up to half a
- *             metre a substep, and what that takes is no load: a joint that is made anew each tick with a
- *             shorter distance_max is a winch, which lifts with the weight of what hangs on it; what it lifts
- *             has no speed of its own from that
+ *             metre a substep, and what that takes is no load: a joint that is given a shorter distance_max
+ *             each tick (lks_joint_set_limits) is a winch, which lifts with the weight of what hangs on it;
+ *             what it lifts has no speed of its own from that
  *
  * Joints are not checked against each other: what two of them hold at places apart comes to rest at one of
  * them, or between.
@@ -84,6 +84,16 @@ typedef struct lks_motor {
     lks_rotation target;  /* of b's frame in a's; of a hinge its turn about the axis counts */
 } lks_motor;
 
+/* The limits of a joint that exists: as in lks_joint_def, which says what they mean. */
+typedef struct lks_limits {
+    lks_fixed swing_limit;
+    lks_fixed swing_limit_z;
+    lks_fixed twist_min;
+    lks_fixed twist_max;
+    lks_fixed distance_min;
+    lks_fixed distance_max;
+} lks_limits;
+
 /* A ball joint without limits, at the origins of both bodies, which don't collide. */
 LKS_API lks_joint_def lks_default_joint_def(void);
 
@@ -104,6 +114,13 @@ LKS_API lks_result lks_joint_angles(const lks_world* world, lks_joint_id joint, 
  * last tick in which it was awake. a gets the opposite. Saturates at ±8,388,607. Either may be null. */
 LKS_API lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lks_vec3* force,
                                   lks_vec3* torque);
+
+/* In the ranges of lks_joint_def. What is beyond new limits is brought back as what was put beyond them:
+ * without giving speed, and that is no load. So a distance joint whose distance_max gets shorter each tick is
+ * a winch, and a hinge whose limits close comes back as fast as a few ticks allow. Limits that differ from
+ * the present ones wake both bodies. */
+LKS_API lks_result lks_joint_set_limits(lks_world* world, lks_joint_id joint, const lks_limits* limits);
+LKS_API lks_result lks_joint_limits(const lks_world* world, lks_joint_id joint, lks_limits* limits);
 
 /* Of a ball joint or a hinge. While it is on the joint's friction is not. A motor that differs from the
  * present one wakes both bodies, unless neither turns anything (max_torque 0). */

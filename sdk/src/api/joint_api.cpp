@@ -7,12 +7,22 @@
 #include "api/read_out.h"
 #include "collide/saturation.h"
 #include "fixed/arc_tangent.h"
+#include "rigid/joint_distance.h"
 #include "rigid/make_body.h"
 #include "rigid/sleep.h"
 
 using namespace lks;
 
 namespace {
+
+void describe_limits(const lks_joint_def& def, JointDescription& d) {
+    d.swing_limit = def.swing_limit;
+    d.swing_limit_z = def.swing_limit_z < 0 ? -1 : def.swing_limit_z;
+    d.twist_min = def.twist_min;
+    d.twist_max = def.twist_max;
+    d.distance_min = def.distance_min;
+    d.distance_max = def.distance_max;
+}
 
 JointDescription describe(const lks_joint_def& def, const RigidScene& scene) {
     JointDescription d{};
@@ -24,12 +34,7 @@ JointDescription describe(const lks_joint_def& def, const RigidScene& scene) {
     d.point_b = to_vec3(def.frame_b.position) - scene.descriptions[d.body_b].centre;
     d.frame_a = fixed::normalise(to_rotation(def.frame_a.rotation));
     d.frame_b = fixed::normalise(to_rotation(def.frame_b.rotation));
-    d.swing_limit = def.swing_limit;
-    d.swing_limit_z = def.swing_limit_z < 0 ? -1 : def.swing_limit_z;
-    d.twist_min = def.twist_min;
-    d.twist_max = def.twist_max;
-    d.distance_min = def.distance_min;
-    d.distance_max = def.distance_max;
+    describe_limits(def, d);
     d.compliance = def.compliance;
     d.damping = def.damping;
     d.angular_compliance = def.angular_compliance;
@@ -52,6 +57,42 @@ JointBodies bodies_of(const lks_world& world, const Joint& joint) {
 
 lks_fixed to_degrees(std::int64_t radians) {
     return fixed::multiply_divide(radians, LKS_FIXED(180), fixed::half_circle);
+}
+
+void take_limits(const lks_limits& limits, lks_joint_def& def) {
+    def.swing_limit = limits.swing_limit;
+    def.swing_limit_z = limits.swing_limit_z;
+    def.twist_min = limits.twist_min;
+    def.twist_max = limits.twist_max;
+    def.distance_min = limits.distance_min;
+    def.distance_max = limits.distance_max;
+}
+
+bool have_same_limits(const JointDescription& d, const JointDescription& e) {
+    return d.swing_limit == e.swing_limit && d.swing_limit_z == e.swing_limit_z &&
+           d.twist_min == e.twist_min && d.twist_max == e.twist_max && d.distance_min == e.distance_min &&
+           d.distance_max == e.distance_max;
+}
+
+// Of a checked definition.
+void set_limits(lks_world& world, Joint& joint, const lks_joint_def& def) {
+    JointDescription wanted = joint.description;
+    describe_limits(def, wanted);
+    if (have_same_limits(wanted, joint.description)) {
+        return;
+    }
+    joint.description = wanted;
+    if (is_distance(joint)) {
+        forget_pushes(joint); // else as much as they moved it would be made up for with speed
+    }
+    Body& a = world.rigid.bodies[wanted.body_a];
+    Body& b = world.rigid.bodies[wanted.body_b];
+    joint.constants = make_joint_constants(wanted, a, b, world.rate);
+    // Where there is no limit any more nothing would take its push back.
+    joint.swing_push = joint.constants.swing_limited ? joint.swing_push : 0;
+    joint.twist_push = joint.constants.twist_limited ? joint.twist_push : 0;
+    wake(a);
+    wake(b);
 }
 
 // A checked motor.
@@ -201,6 +242,35 @@ lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lks_vec3* 
     if (torque != nullptr) {
         *torque = times(found.turned, factor.times_power_of_two(2 * found.constants.reach));
     }
+    return LKS_OK;
+}
+
+lks_result lks_joint_set_limits(lks_world* world, lks_joint_id joint, const lks_limits* limits) {
+    if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
+        return result;
+    }
+    if (limits == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_joint_set_limits", "limits"));
+    }
+    Joint& found = world->rigid.joints[joint.index];
+    lks_joint_def def = define_joint(found.description);
+    take_limits(*limits, def);
+    if (const lks_result result = check_joint_ranges(*world, def); result != LKS_OK) {
+        return result;
+    }
+    set_limits(*world, found, def);
+    return LKS_OK;
+}
+
+lks_result lks_joint_limits(const lks_world* world, lks_joint_id joint, lks_limits* limits) {
+    if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
+        return result;
+    }
+    if (limits == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_joint_limits", "limits"));
+    }
+    const JointDescription& d = world->rigid.joints[joint.index].description;
+    *limits = {d.swing_limit, d.swing_limit_z, d.twist_min, d.twist_max, d.distance_min, d.distance_max};
     return LKS_OK;
 }
 
