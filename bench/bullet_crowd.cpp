@@ -2,6 +2,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace lks_bench {
@@ -85,6 +86,30 @@ public:
         return errors;
     }
 
+    std::vector<double> limit_errors() const override {
+        std::vector<double> errors;
+        for (std::size_t i = 0; i < joints_.size(); ++i) {
+            const Limited& limited = limited_[i];
+            const btTransform a = joints_[i]->getRigidBodyA().getWorldTransform() * limited.in_parent;
+            const btTransform b = joints_[i]->getRigidBodyB().getWorldTransform() * limited.in_child;
+            const btQuaternion between = (a.inverse() * b).getRotation();
+            const double along = double(between.y()) * between.y() + double(between.w()) * between.w();
+            const double swing = 2 * std::atan2(std::sqrt(std::max(0.0, 1 - along)), std::sqrt(along));
+            double twist = 2 * std::atan2(double(between.y()), double(between.w()));
+            twist = std::remainder(twist, 2 * std::acos(-1.0));
+            errors.push_back(degrees_beyond(limited.bone, degrees(swing), degrees(twist)));
+        }
+        return errors;
+    }
+
+    std::size_t contacts() const override {
+        std::size_t count = 0;
+        for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+            count += touch(*dispatcher_.getManifoldByIndexInternal(i)) ? 1 : 0;
+        }
+        return count;
+    }
+
     double energy() const override {
         double sum = 0;
         for (const std::unique_ptr<btRigidBody>& body : bodies_) {
@@ -101,6 +126,24 @@ public:
     }
 
 private:
+    // A joint's bone, and its frames as we have them.
+    struct Limited {
+        lks_bone bone;
+        btTransform in_parent;
+        btTransform in_child;
+    };
+
+    static double degrees(double radians) { return radians * 180 / std::acos(-1.0); }
+
+    static bool touch(const btPersistentManifold& manifold) {
+        for (int i = 0; i < manifold.getNumContacts(); ++i) {
+            if (manifold.getContactPoint(i).getDistance() <= 0) {
+                return true;
+            }
+        }
+        return false;
+    }
+
     btRigidBody* add(std::unique_ptr<btCollisionShape> shape, btScalar mass, const btTransform& place) {
         btVector3 inertia(0, 0, 0);
         if (mass > 0) {
@@ -143,7 +186,8 @@ private:
         const btTransform in_child = child.getWorldTransform().inverse() * frame;
         if (hinge) {
             auto joint = std::make_unique<btHingeConstraint>(parent, child, in_parent, in_child);
-            joint->setLimit(radians(bone.twist_min), radians(bone.twist_max));
+            // It measures how a is turned in b.
+            joint->setLimit(-radians(bone.twist_max), -radians(bone.twist_min));
             joints_.push_back(std::move(joint));
         } else {
             auto joint = std::make_unique<btConeTwistConstraint>(parent, child, in_parent, in_child);
@@ -151,6 +195,9 @@ private:
             joints_.push_back(std::move(joint));
         }
         world_.addConstraint(joints_.back().get(), true);
+        const btTransform ours = place * transform(bone.joint_frame);
+        limited_.push_back(
+            {bone, parent.getWorldTransform().inverse() * ours, child.getWorldTransform().inverse() * ours});
     }
 
     int steps_;
@@ -162,6 +209,7 @@ private:
     std::vector<std::unique_ptr<btCollisionShape>> shapes_;
     std::vector<std::unique_ptr<btRigidBody>> bodies_;
     std::vector<std::unique_ptr<btTypedConstraint>> joints_;
+    std::vector<Limited> limited_; // beside them
 };
 
 } // namespace

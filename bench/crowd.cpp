@@ -1,5 +1,7 @@
 #include "crowd.h"
 
+#include <algorithm>
+
 namespace lks_bench {
 namespace {
 
@@ -8,6 +10,14 @@ bool is_small(std::uint32_t bone) {
 }
 
 } // namespace
+
+double degrees_beyond(const lks_bone& bone, double swing, double twist) {
+    const double cone = bone.joint_kind == LKS_JOINT_BALL
+                            ? lks_fixed_to_double(std::max(bone.swing_limit, bone.swing_limit_z))
+                            : 0;
+    return std::max({0.0, swing - cone, twist - lks_fixed_to_double(bone.twist_max),
+                     lks_fixed_to_double(bone.twist_min) - twist});
+}
 
 Crowd::Crowd(bool with_head_and_hands) {
     lks_bone all[LKS_HUMANOID_BONES];

@@ -61,6 +61,10 @@ struct CrowdRows : Crowd {
     CrowdRows();
 };
 
+// By how much a bone's joint is beyond its limits, of its swing and its twist: all in degrees. The axes of a
+// hinge may not swing apart at all.
+double degrees_beyond(const lks_bone& bone, double swing, double twist);
+
 // An engine with the crowd in it.
 class CrowdWorld {
 public:
@@ -68,6 +72,10 @@ public:
     virtual void tick() = 0;
     // How far each joint's points are apart, metres.
     virtual std::vector<double> joint_errors() const = 0;
+    // How far each joint is beyond its limits, degrees; none where nobody asks this engine.
+    virtual std::vector<double> limit_errors() const { return {}; }
+    // Pairs of shapes that touch.
+    virtual std::size_t contacts() const { return 0; }
     // Kinetic and potential, joules.
     virtual double energy() const = 0;
 };

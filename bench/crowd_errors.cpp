@@ -13,11 +13,11 @@ void CrowdErrors::add(const std::vector<double>& errors) {
 }
 
 void CrowdErrors::report(const char* workload, const std::string& measured, const std::string& variant,
-                         Results& results) const {
+                         double factor, const char* unit, Results& results) const {
     if (count_ != 0) {
         results.push_back(
-            {workload, measured + ", mean", variant, 1000 * sum_ / static_cast<double>(count_), "mm"});
-        results.push_back({workload, measured + ", worst", variant, 1000 * worst_, "mm"});
+            {workload, measured + ", mean", variant, factor * sum_ / static_cast<double>(count_), unit});
+        results.push_back({workload, measured + ", worst", variant, factor * worst_, unit});
     }
 }
 

@@ -11,11 +11,16 @@ namespace lks_bench {
 // Mean and worst of all ticks.
 class CrowdErrors {
 public:
-    // Of one tick, metres.
+    // Of one tick.
     void add(const std::vector<double>& errors);
-    // In millimetres; nothing where there was nothing.
+    // Times a factor, in that unit; nothing where there was nothing.
+    void report(const char* workload, const std::string& measured, const std::string& variant, double factor,
+                const char* unit, Results& results) const;
+    // Of metres, in millimetres.
     void report(const char* workload, const std::string& measured, const std::string& variant,
-                Results& results) const;
+                Results& results) const {
+        report(workload, measured, variant, 1000, "mm", results);
+    }
 
 private:
     double sum_ = 0;

@@ -31,6 +31,7 @@ OurCrowd::OurCrowd(const Crowd& crowd, std::uint32_t substeps, std::uint32_t ite
         lks_world_add_ragdoll(world_, &ragdoll, bodies, joints);
         bodies_.insert(bodies_.end(), bodies, bodies + crowd.bone_count);
         joints_.insert(joints_.end(), joints, joints + crowd.bone_count - 1);
+        bones_.insert(bones_.end(), crowd.bones + 1, crowd.bones + crowd.bone_count);
     }
     for (const lks_body_id body : bodies_) {
         lks_fixed mass = 0;
@@ -45,6 +46,17 @@ std::vector<double> OurCrowd::joint_errors() const {
         lks_fixed error = 0;
         lks_joint_error(world_, joint, &error);
         errors.push_back(lks_fixed_to_double(error));
+    }
+    return errors;
+}
+
+std::vector<double> OurCrowd::limit_errors() const {
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+        lks_fixed swing = 0;
+        lks_fixed twist = 0;
+        lks_joint_angles(world_, joints_[i], &swing, &twist);
+        errors.push_back(degrees_beyond(bones_[i], lks_fixed_to_double(swing), lks_fixed_to_double(twist)));
     }
     return errors;
 }

@@ -13,6 +13,8 @@ public:
 
     void tick() override { lks_world_step(world_); }
     std::vector<double> joint_errors() const override;
+    std::vector<double> limit_errors() const override;
+    std::size_t contacts() const override { return lks_world_contact_count(world_); }
     double energy() const override;
     lks_world* world() const { return world_; }
     // Bone by bone, one humanoid after the other.
@@ -23,6 +25,7 @@ private:
     lks_world* world_ = nullptr;
     std::vector<lks_body_id> bodies_;
     std::vector<lks_joint_id> joints_;
+    std::vector<lks_bone> bones_; // of the joints
     std::vector<double> masses_;
 };
 

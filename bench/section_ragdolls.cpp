@@ -19,6 +19,8 @@ struct Run {
     double milliseconds = 0;
     double slowest = 0;
     CrowdErrors errors{};
+    CrowdErrors limits{};
+    double contacts = 0;
     double least_energy = 0;
     double gained = 0;
 
@@ -30,6 +32,8 @@ struct Run {
         milliseconds += taken;
         slowest = std::max(slowest, taken);
         errors.add(world->joint_errors());
+        limits.add(world->limit_errors());
+        contacts += static_cast<double>(world->contacts());
         const double energy = world->energy();
         gained = std::max(gained, energy - least_energy);
         least_energy = std::min(least_energy, energy);
@@ -89,7 +93,9 @@ void measure_fall(const char* name, const Crowd& crowd, int rounds, Results& res
     for (const Run& run : runs) {
         results.push_back({name, "slowest tick", run.name, run.slowest, "ms"});
         run.errors.report(name, "joint error", run.name, results);
+        run.limits.report(name, "beyond limits", run.name, 1, "degrees", results);
         results.push_back({name, "energy gained", run.name, run.gained, "J"});
+        results.push_back({name, "contacts, mean", run.name, run.contacts / ticks, ""});
     }
     measure_snapshots_of(name, first, rounds, results);
 }

@@ -85,6 +85,8 @@ for fall in "ragdolls_100", "ragdolls_pile":
     value(results, "ticks of the 300 of a fall: no figures to compare", "")
     for measured in "whole tick", "slowest tick", "snapshot, save", "snapshot, load":
         value(results, measured, "8 substeps")
+    for measured in "joint error, worst", "beyond limits, worst", "contacts, mean":
+        value(results, measured, "8 substeps")
 dressed = measure("ragdolls_dressed")
 for variant in "coupled", "attached only", "side by side", "bodies alone", "coupled, two workers":
     value(dressed, "whole tick", f"20 substeps, {variant}")

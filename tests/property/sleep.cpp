@@ -66,6 +66,25 @@ TEST_CASE("what has come to rest falls asleep, and an hour changes nothing more"
     }
 }
 
+TEST_CASE("contacts that push are counted, asleep too") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    CHECK(lks_world_contact_count(world) == 0);
+    lks_body_id boxes[3];
+    for (int i = 0; i < 3; ++i) {
+        boxes[i] = add_body(world, box_shape(0.1, 0.1, 0.1), fixed(0, 0.1 + 0.2 * i, 0));
+    }
+    add_body(world, ball_shape(0.1), fixed(0.205, 0.1, 0)); // near, but it touches the ground only
+    world.step(2);
+    CHECK(lks_world_contact_count(world) == 4);
+    world.step(300);
+    CHECK(lks_world_awake_body_count(world) == 0);
+    CHECK(lks_world_contact_count(world) == 4);
+    REQUIRE(lks_world_remove_body(world, boxes[2]) == LKS_OK);
+    CHECK(lks_world_contact_count(world) == 3);
+    CHECK(lks_world_contact_count(nullptr) == 0);
+}
+
 TEST_CASE("what the game does to one wakes its island, and nobody else") {
     using Act = std::function<void(Boxes&)>;
     const Act acts[] = {

@@ -115,6 +115,9 @@ LKS_API uint32_t lks_body_is_awake(const lks_world* world, lks_body_id body);
 /* With its island, from the next tick on. */
 LKS_API lks_result lks_body_wake(lks_world* world, lks_body_id body);
 LKS_API uint32_t lks_world_awake_body_count(const lks_world* world);
+/* Pairs of shapes, bodies' and colliders', that pushed each other at the end of the last tick, or did when
+ * they fell asleep. Particles don't count. */
+LKS_API uint32_t lks_world_contact_count(const lks_world* world);
 
 /* kg; 0 for a kinematic body, and at most what an lks_fixed holds, 8388608, of one that its densities make
  * heavier. */

@@ -322,6 +322,10 @@ uint32_t lks_world_awake_body_count(const lks_world* world) {
     return count;
 }
 
+uint32_t lks_world_contact_count(const lks_world* world) {
+    return world == nullptr ? 0 : static_cast<std::uint32_t>(world->rigid.memories.size());
+}
+
 lks_result lks_body_mass(const lks_world* world, lks_body_id body, lks_fixed* mass) {
     if (const lks_result result = require_body(world, body); result != LKS_OK) {
         return result;
