@@ -33,9 +33,9 @@ public:
     // Before the prediction: how far they let turn.
     void begin(const Body& a, const Body& b) {
         Swing swing;
-        swing_start_ = 0;
+        swing_beyond_ = -Scalar(half_circle); // certainly within
         if (swings_ && find_swing(a, b, swing)) {
-            swing_start_ = swing.angle;
+            swing_beyond_ = swing.angle - swing.limit;
             swing_axis_ = swing.axis;
         }
         twist_least_ = twist_min_;
@@ -89,7 +89,7 @@ public:
         }
         Swing swing;
         if (swings_ && find_swing(a, b, swing)) {
-            beyond = swing.angle - std::max(swing.limit, swing_start_);
+            beyond = swing.angle - swing.limit - std::max(swing_beyond_, Scalar(0));
         }
         Twist twist;
         if (twists_ && find_twist(a, b, twist)) {
@@ -128,7 +128,7 @@ public:
                 turn_to_push(swing);
                 swing_axis_ = swing.axis;
             }
-            const Scalar limit = in_substep ? std::max(swing.limit, swing_start_) : swing.limit;
+            const Scalar limit = swing.limit + (in_substep ? std::max(swing_beyond_, Scalar(0)) : 0);
             rows.push_back({swing.axis * Scalar(-1), limit - swing.angle, in_substep ? swing_push_ : 0,
                             &swing_push_, 1});
         }
@@ -183,8 +183,8 @@ private:
         const Vec sine = cross(u, v);
         const Scalar length = sine.length();
         const Vec some = std::abs(u.x) < std::abs(u.y) ? Vec{0, -u.z, u.y} : Vec{-u.z, 0, u.x};
-        return {length > 0 ? sine * (1 / length) : some * (1 / some.length()), std::atan2(length, u.dot(v)),
-                swing_limit(a, v)};
+        return square_to_edge(a, v, length > 0 ? sine * (1 / length) : some * (1 / some.length()),
+                              std::atan2(length, u.dot(v)), length);
     }
     // False: within the least limit, and nothing is pushed that could be taken back.
     bool find_swing(const Body& a, const Body& b, Swing& swing) const {
@@ -205,14 +205,61 @@ private:
         return found;
     }
 
-    // On the ellipse: (cos φ/limit_x, sin φ/limit_z) has length 1/limit.
-    Scalar swing_limit(const Body& a, const Vec& v) const {
-        if (limit_x_ == limit_z_) {
-            return limit_x_;
+    // The parameter of the point of the ellipse that is next to (x, z), in the first quadrant.
+    struct OnEllipse {
+        Scalar cosine, sine;
+    };
+    OnEllipse nearest(Scalar x, Scalar z) const {
+        OnEllipse t{std::sqrt(Scalar(0.5)), std::sqrt(Scalar(0.5))};
+        const Scalar difference = limit_x_ * limit_x_ - limit_z_ * limit_z_;
+        for (int i = 0; i < 4; ++i) {
+            const Scalar centre_x = difference / limit_x_ * t.cosine * t.cosine * t.cosine;
+            const Scalar centre_z = -difference / limit_z_ * t.sine * t.sine * t.sine;
+            const Scalar radius = std::hypot(limit_x_ * t.cosine - centre_x, limit_z_ * t.sine - centre_z);
+            const Scalar away = std::hypot(x - centre_x, z - centre_z);
+            if (away == 0) {
+                break;
+            }
+            const Scalar cosine =
+                std::clamp(((x - centre_x) * radius / away + centre_x) / limit_x_, Scalar(0), Scalar(1));
+            const Scalar sine =
+                std::clamp(((z - centre_z) * radius / away + centre_z) / limit_z_, Scalar(0), Scalar(1));
+            const Scalar length = std::hypot(cosine, sine);
+            if (length == 0) {
+                break;
+            }
+            t = {cosine / length, sine / length};
         }
-        const Scalar x = v.dot(a.rotation * frame_a_.matrix().column(0));
-        const Scalar z = v.dot(a.rotation * frame_a_.matrix().column(2));
-        return std::hypot(x, z) / std::hypot(x / limit_x_, z / limit_z_);
+        return t;
+    }
+
+    // As sdk/src/rigid/swing_ellipse.h has it.
+    Swing square_to_edge(const Body& a, const Vec& v, const Vec& k, Scalar angle, Scalar sine) const {
+        if (limit_x_ == limit_z_) {
+            return {k, angle, limit_x_};
+        }
+        const Vec across_x = a.rotation * frame_a_.matrix().column(0);
+        const Vec across_z = a.rotation * frame_a_.matrix().column(2);
+        const Scalar reach = std::hypot(v.dot(across_x), v.dot(across_z));
+        const bool x_is_less = limit_x_ < limit_z_;
+        const Scalar cosine_phi = reach > 0 ? v.dot(across_x) / reach : Scalar(x_is_less ? 1 : 0);
+        const Scalar sine_phi = reach > 0 ? v.dot(across_z) / reach : Scalar(x_is_less ? 0 : 1);
+        const Scalar x = std::abs(angle * cosine_phi);
+        const Scalar z = std::abs(angle * sine_phi);
+        const OnEllipse t = nearest(x, z);
+        const Scalar scale = std::hypot(t.cosine * limit_z_, t.sine * limit_x_);
+        const Scalar n_x = t.cosine * limit_z_ / scale;
+        const Scalar n_z = t.sine * limit_x_ / scale;
+        const Scalar radial = n_x * std::abs(cosine_phi) + n_z * std::abs(sine_phi);
+        const Scalar along =
+            std::copysign(n_z, sine_phi) * cosine_phi - std::copysign(n_x, cosine_phi) * sine_phi;
+        const Scalar least = angle > 2 ? Scalar(0.25) : Scalar(0);
+        const Scalar over_sine = angle < Scalar(1) / 1024 ? Scalar(1) : angle / std::max(sine, least);
+        const Vec m = cross(v, across_z * cosine_phi - across_x * sine_phi);
+        const Vec way = k * radial + m * (along * over_sine);
+        const Scalar length = way.length();
+        return {way * (1 / length), (n_x * x + n_z * z) / length,
+                (n_x * t.cosine * limit_x_ + n_z * t.sine * limit_z_) / length};
     }
 
     // About the middle of both axes, and how much of it is to be turned: all, but beyond 110 degrees of swing
@@ -248,7 +295,7 @@ private:
             return;
         }
         swing_axis_ = swing.axis;
-        const Scalar start = std::max(swing_start_ - swing.limit, Scalar(0));
+        const Scalar start = std::max(swing_beyond_, Scalar(0));
         const Scalar back = to_turn_back(swing.angle - swing.limit, start, swing_push_);
         const Scalar wanted = std::max(swing_push_ + push_for(a, b, swing.axis, back), Scalar(0));
         turn(a, b, swing.axis, swing_push_ - wanted);
@@ -301,7 +348,7 @@ private:
     // kg·m²: carried from substep to substep.
     Scalar swing_push_ = 0, twist_push_ = 0;
     // Of the substep.
-    Scalar swing_start_ = 0, twist_least_ = 0, twist_most_ = 0;
+    Scalar swing_beyond_ = 0, twist_least_ = 0, twist_most_ = 0;
     Vec swing_axis_; // about which b has swung where its limit pushes
 };
 

@@ -90,7 +90,8 @@ struct JointConstants {
     // the twist of the frames, times what is left of the swing.
     std::int32_t twist_sine[4];
     std::int32_t twist_cosine[4];
-    SinCos half_min; // of half the least twist
+    SinCos half_middle; // of half of what twists are measured from
+    SinCos half_min;    // of half the least twist
     SinCos half_max;
     std::int64_t twist_min; // World, radians
     std::int64_t twist_max;
@@ -104,6 +105,10 @@ struct JointConstants {
     std::int32_t motor_share; // what of its error the motor makes up for in a substep, 30 fraction bits
     int reach;                // of turns (rigid/pair.h)
 };
+
+inline bool has_ellipse(const JointConstants& c) {
+    return c.swing_limited && !c.swing_round;
+}
 
 // What changes. Images and hashes have it in this order, behind the description.
 struct JointState {
@@ -135,8 +140,8 @@ struct Joint : JointState {
     fixed::Vec3 turn_start;      // how far a hinge's or a fixed joint's frames are turned at its beginning
     fixed::Vec3 drag;            // what angular damping turned
     fixed::Direction swing_axis; // about which b has swung where its limit pushes
-    std::int64_t swing_start;    // how far limits let turn in this substep: World, radians
-    std::int64_t twist_least;
+    std::int64_t swing_beyond;   // how far the swing is beyond its limit at its beginning: World, radians
+    std::int64_t twist_least;    // how far limits let turn in this substep
     std::int64_t twist_most;
     std::int64_t swing_gap; // how far limits that push are to keep off: World, radians
     std::int64_t twist_gap;

@@ -4,6 +4,7 @@
 
 #include "fixed/arc_tangent.h"
 #include "rigid/joint_frames.h"
+#include "rigid/swing_ellipse.h"
 
 namespace lks {
 namespace {
@@ -13,32 +14,6 @@ using fixed::Vec3;
 
 // Half a degree: World, radians.
 constexpr std::int64_t far_beyond = (std::int64_t{1} << world_fraction_bits) / 115;
-
-// How far the axis of b may swing the way it does: an ellipse with a half axis towards each of the frame's
-// two axes across.
-std::int64_t swing_limit(const JointConstants& c, const Body& a, const Direction& v) {
-    if (c.swing_round) {
-        return c.swing_limit;
-    }
-    const std::int64_t x = fixed::dot(fixed::rotate(a.rotation, c.across_a[0]), v);
-    const std::int64_t z = fixed::dot(fixed::rotate(a.rotation, c.across_a[1]), v);
-    fixed::NormalisedVector towards{};
-    fixed::NormalisedVector scaled{};
-    if (!fixed::normalise(Vec3{x, z, 0}, towards) ||
-        !fixed::normalise(Vec3{fixed::scale_component(towards.direction.x, c.swing_limit_z),
-                               fixed::scale_component(towards.direction.y, c.swing_limit), 0},
-                          scaled)) {
-        return std::min(c.swing_limit, c.swing_limit_z);
-    }
-    return fixed::multiply_divide(c.swing_limit, c.swing_limit_z, scaled.length);
-}
-
-// How far the axes are apart, and about which axis.
-struct Swing {
-    Direction axis;
-    std::int64_t angle; // World, radians
-    std::int64_t limit;
-};
 
 // How far a limit that pushes keeps off what is back within it by `gap`, where loads are far from the joint:
 // of that it gives way to a 64th a substep. If it gave way to all at once, as it does for all others, it
@@ -55,7 +30,10 @@ Swing measure_swing(const Joint& joint, const Body& a, const Direction& u, const
         fixed::normalise(fixed::some_across(u), way);
         way.length = 0;
     }
-    return {way.direction, fixed::angle_of(way.length, fixed::dot(u, v)), swing_limit(joint.constants, a, v)};
+    const JointConstants& c = joint.constants;
+    const std::int64_t angle = fixed::angle_of(way.length, fixed::dot(u, v));
+    return c.swing_round ? Swing{way.direction, angle, c.swing_limit}
+                         : square_to_edge(c, a, v, way.direction, angle, way.length);
 }
 
 // As what has pushed in this substep knows it: what has been turned back past the middle, which a narrow cone
@@ -102,7 +80,7 @@ void hold_swing(Joint& joint, Body& a, Body& b) {
     }
     joint.swing_axis = swing.axis;
     const TurnRow row(joint, a, b, swing.axis, joint.constants.limits.softness);
-    const std::int64_t start = std::max<std::int64_t>(joint.swing_start - swing.limit, -joint.swing_gap);
+    const std::int64_t start = std::max(joint.swing_beyond, -joint.swing_gap);
     const std::int64_t beyond = to_turn_back(joint, swing.angle - swing.limit, start, joint.swing_push);
     const std::int64_t wanted =
         std::clamp<std::int64_t>(joint.swing_push + row.push_for(beyond), 0, greatest_push);
@@ -176,7 +154,7 @@ bool find_twist(const Joint& joint, const Body& a, const Body& b, Twist& twist) 
 
 // In a substep what was exceeded when it began stays so.
 std::int64_t allowed_swing(const Joint& joint, const Swing& swing, bool in_substep) {
-    return in_substep ? std::max(swing.limit, joint.swing_start) : swing.limit;
+    return swing.limit + (in_substep ? std::max<std::int64_t>(joint.swing_beyond, 0) : 0);
 }
 
 struct AllowedTwist {
@@ -232,10 +210,10 @@ void push_limits(const Joint& joint, Body& a, Body& b, std::int64_t swing_push, 
 void begin_limits(Joint& joint, const Body& a, const Body& b) {
     const JointConstants& c = joint.constants;
     Swing swing{};
-    joint.swing_start = 0;
+    joint.swing_beyond = -fixed::half_circle; // certainly within
     joint.swing_gap = joint.twist_gap = 0;
     if (c.swing_limited && find_swing(joint, a, b, swing)) {
-        joint.swing_start = swing.angle;
+        joint.swing_beyond = swing.angle - swing.limit;
         joint.swing_axis = swing.axis;
         if (joint.swing_push != 0) {
             joint.swing_gap = kept_gap(joint, swing.limit - swing.angle);
