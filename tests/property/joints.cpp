@@ -338,3 +338,27 @@ TEST_CASE("what lies on a limit far from its joint comes to rest there, and load
         CHECK(lks_body_is_awake(world, body) == 0);
     }
 }
+
+TEST_CASE("a ball joint knows nothing of angular compliance") {
+    const auto end_of = [](double compliance) {
+        World world(world_def(60, 8));
+        lks_body_id last = add_anchor(world, {});
+        for (int i = 0; i < 6; ++i) {
+            lks_body_def def = lks_default_body_def();
+            def.mass = fixed(i == 5 ? 50 : 1);
+            const lks_body_id link =
+                add_body(world, capsule_shape(0.04, 0.1), fixed(0.3 * i + 0.15, 0, 0), def);
+            lks_joint_def joint = lks_default_joint_def();
+            joint.frame_a.position = i == 0 ? lks_vec3{} : fixed(0.15, 0, 0);
+            joint.frame_b.position = fixed(-0.15, 0, 0);
+            joint.angular_compliance = fixed(compliance);
+            add_joint(world, joint, last, link);
+            last = link;
+        }
+        world.step(200);
+        return state_of(world, last).position;
+    };
+    const Vector without = end_of(0);
+    const Vector with = end_of(1e-6);
+    CHECK((with - without).length() == 0);
+}

@@ -6,6 +6,7 @@
 #include "rigid/contact_search.h"
 #include "rigid/figures.h"
 #include "rigid/joint_drive.h"
+#include "rigid/joint_limits.h"
 #include "rigid/rope_loads.h"
 #include "rigid/substep_motion.h"
 
@@ -23,6 +24,24 @@ constexpr std::int64_t one_factor = std::int64_t{1} << factor_fraction_bits;
 bool move_alike(const Body& a, const Body& b) {
     const Vec3 none{0, 0, 0};
     return &a == &b || (a.velocity == b.velocity && a.angular_velocity == none && b.angular_velocity == none);
+}
+
+// What a joint's springs have done, as work_of_turning has it: their pushes times the motion.
+std::int64_t work_of_springs(const Joint& joint, const Body& a, const Body& b) {
+    const JointConstants& c = joint.constants;
+    std::int64_t work = 0;
+    if (c.points.softness != 0) {
+        const Vec3 push = to_motion(joint.push);
+        const Vec3 way = to_motion(joint_offset(joint, a, b) - joint.begin);
+        work = push.x * way.x + push.y * way.y + push.z * way.z;
+    }
+    if (c.angular_softness != 0) {
+        work += work_of_turning(joint, a, b, joint.turn);
+    }
+    if (c.limits.softness != 0) {
+        work += work_of_turning(joint, a, b, limit_push(joint, a, b));
+    }
+    return work;
 }
 
 // √(a/b), 30 fraction bits; b > a ≥ 0.
@@ -220,7 +239,10 @@ private:
         if (!is_much_more(after, before) || !is_pushed_from_within(holder)) {
             return one_factor;
         }
-        for_each(Part::joint, [&](std::uint32_t i) { before = before + twice_drive_work(scene_.joints[i]); });
+        for_each(Part::joint, [&](std::uint32_t i) { before = before + twice_work(scene_.joints[i]); });
+        if (before.hi < 0) {
+            before = {0, 0}; // springs have taken more than there was
+        }
         if (!is_much_more(after, before)) {
             return one_factor;
         }
@@ -238,8 +260,7 @@ private:
         bool within = !is_near_particles();
         for_each(Part::joint, [&](std::uint32_t i) {
             const Joint& joint = scene_.joints[i];
-            within = within && (range_.is_loaded ? joint.in_tree : joint.in_held_tree) &&
-                     joint.constants.limits.softness == 0;
+            within = within && (!range_.is_loaded || (joint.in_tree && joint.constants.limits.softness == 0));
         });
         for (const Part kind : {Part::contact, Part::shared_contact}) {
             for_each(kind, [&](std::uint32_t i) {
@@ -271,11 +292,12 @@ private:
         });
     }
 
-    // What a motor, or friction, has given.
-    Int128 twice_drive_work(const Joint& joint) const {
+    // What a motor, or friction, has given, and what is soft has given or taken.
+    Int128 twice_work(const Joint& joint) const {
         const Body& a = scene_.bodies[joint.description.body_a];
         const Body& b = scene_.bodies[joint.description.body_b];
-        const std::int64_t work = std::max<std::int64_t>(work_of_drive(joint, a, b), 0);
+        const std::int64_t work = std::max<std::int64_t>(work_of_turning(joint, a, b, joint.grip), 0) +
+                                  work_of_springs(joint, a, b);
         const Body& lighter = heavier(b.effective_inverse_mass(), a.effective_inverse_mass()) ? a : b;
         return fixed::multiply_signed(2 * work, mass_in(range_.heaviest, lighter));
     }

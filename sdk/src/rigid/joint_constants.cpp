@@ -55,6 +55,14 @@ void set_swing(JointConstants& c, const JointDescription& d) {
     c.across_a[1] = frame_axis(d.frame_a, 2);
 }
 
+// What twists are measured from, degrees. Where a limit is near a half turn that is the middle of both: what
+// goes beyond it would be read from the other side, and turned all the way to the other limit.
+lks_fixed middle_of_twists(const JointDescription& d) {
+    constexpr lks_fixed near_half_turn = LKS_FIXED(170);
+    const bool is_near = d.twist_min < -near_half_turn || d.twist_max > near_half_turn;
+    return is_near ? d.twist_min / 2 + d.twist_max / 2 : 0;
+}
+
 void set_twist(JointConstants& c, const JointDescription& d) {
     c.twist_limited = (d.kind == LKS_JOINT_BALL || d.kind == LKS_JOINT_HINGE) &&
                       (d.twist_min > -half_circle_degrees || d.twist_max < half_circle_degrees);
@@ -62,17 +70,20 @@ void set_twist(JointConstants& c, const JointDescription& d) {
                                           {0, fixed::rotation_one, 0, 0},
                                           {0, 0, fixed::rotation_one, 0},
                                           {0, 0, 0, fixed::rotation_one}};
+    const lks_fixed middle = middle_of_twists(d);
+    // One fraction bit more is half the angle.
+    c.half_middle = sine_and_cosine(middle, world_fraction_bits + 1);
+    const fixed::Rotation back{0, -c.half_middle.sine, 0, c.half_middle.cosine};
     for (int i = 0; i < 4; ++i) {
-        const fixed::Rotation turned =
-            fixed::multiply(fixed::conjugate(d.frame_a), fixed::multiply(units[i], d.frame_b));
+        const fixed::Rotation turned = fixed::multiply(
+            fixed::multiply(fixed::conjugate(d.frame_a), fixed::multiply(units[i], d.frame_b)), back);
         c.twist_sine[i] = turned.y;
         c.twist_cosine[i] = turned.w;
     }
-    // One fraction bit more is half the angle.
-    c.half_min = sine_and_cosine(d.twist_min, world_fraction_bits + 1);
-    c.half_max = sine_and_cosine(d.twist_max, world_fraction_bits + 1);
-    c.twist_min = to_radians(d.twist_min);
-    c.twist_max = to_radians(d.twist_max);
+    c.half_min = sine_and_cosine(d.twist_min - middle, world_fraction_bits + 1);
+    c.half_max = sine_and_cosine(d.twist_max - middle, world_fraction_bits + 1);
+    c.twist_min = to_radians(d.twist_min - middle);
+    c.twist_max = to_radians(d.twist_max - middle);
 }
 
 // `greater` is the greater inverse mass.
@@ -82,8 +93,10 @@ void set_forces(JointConstants& c, const JointDescription& d, const fixed::Scale
     const fixed::Scaled one = fixed::Scaled::from_u64(1);
     const fixed::Scaled by_reach = one.times_power_of_two(2 * c.reach);
     c.points = make_softness(d.compliance, d.damping, greater, rate);
-    c.angular_softness =
-        softness_of(world_value(d.angular_compliance) * inverse_h * inverse_h * by_reach / greater);
+    if (d.kind == LKS_JOINT_HINGE || d.kind == LKS_JOINT_FIXED) {
+        c.angular_softness =
+            softness_of(world_value(d.angular_compliance) * inverse_h * inverse_h * by_reach / greater);
+    }
     c.limits =
         make_softness(d.limits.compliance, d.limits.damping, greater.times_power_of_two(-2 * c.reach), rate);
     if (d.angular_damping != 0) {

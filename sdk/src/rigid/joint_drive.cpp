@@ -59,10 +59,31 @@ void drag(Joint& joint, Body& a, Body& b) {
     turn_back(joint, a, b, way.direction, to_angle(way.length), joint.constants.drag_softness, joint.drag);
 }
 
+// How far a hinge is turned from where twists are measured from: World, within half a circle.
+std::int64_t twist_of(const JointConstants& c, const fixed::Rotation& q) {
+    const auto part = [](std::int64_t sum) { return fixed::shift_right_rounded(sum, 30); };
+    const std::int64_t sine =
+        part(std::int64_t{q.y} * c.half_middle.cosine - std::int64_t{q.w} * c.half_middle.sine);
+    const std::int64_t cosine =
+        part(std::int64_t{q.w} * c.half_middle.cosine + std::int64_t{q.y} * c.half_middle.sine);
+    return 2 * (cosine < 0 ? fixed::angle_of(-sine, -cosine) : fixed::angle_of(sine, cosine));
+}
+
+// From where it is to the motor's target without leaving its limits, which may be the long way round. Nought
+// where there are none.
+std::int64_t way_within_limits(const Joint& joint, const fixed::Rotation& now) {
+    const bool limited = joint.description.kind == LKS_JOINT_HINGE && joint.constants.twist_limited;
+    return limited ? twist_of(joint.constants, joint.motor_target) - twist_of(joint.constants, now) : 0;
+}
+
 // What is missing to the motor's target, about any axis or about the hinge's: an angle in World, in the
 // world.
 Vec3 missing_turn(const Joint& joint, const Body& a, const Body& b) {
     const fixed::Rotation now = relative_rotation(joint, a, b);
+    if (const std::int64_t way = way_within_limits(joint, now);
+        way < -fixed::half_circle || way > fixed::half_circle) {
+        return fixed::scale(from_frame_a(joint, a, {0, direction_one, 0}), way);
+    }
     fixed::Rotation q = fixed::multiply(joint.motor_target, fixed::conjugate(now));
     if (joint.description.kind == LKS_JOINT_HINGE) {
         q.x = 0;
@@ -117,10 +138,10 @@ Vec3 add_to_drive(Joint& joint, std::int32_t share) {
     return joint.grip - before;
 }
 
-std::int64_t work_of_drive(const Joint& joint, const Body& a, const Body& b) {
+std::int64_t work_of_turning(const Joint& joint, const Body& a, const Body& b, const Vec3& turned) {
     const auto at_reach = [&](std::int64_t angle) { return shifted(angle, joint.constants.reach); };
     const Vec3 half_turn = turned_since_start(a, b);
-    const Vec3 push = to_motion({at_reach(joint.grip.x), at_reach(joint.grip.y), at_reach(joint.grip.z)});
+    const Vec3 push = to_motion({at_reach(turned.x), at_reach(turned.y), at_reach(turned.z)});
     const Vec3 way = to_motion(
         {at_reach(to_angle(half_turn.x)), at_reach(to_angle(half_turn.y)), at_reach(to_angle(half_turn.z))});
     return push.x * way.x + push.y * way.y + push.z * way.z;

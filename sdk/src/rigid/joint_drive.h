@@ -24,8 +24,8 @@ void carry_drive_on(const Joint& joint, Body& a, Body& b);
 // Adds a share of it, which is to be pushed.
 fixed::Vec3 add_to_drive(Joint& joint, std::int32_t share);
 void project_drive(Joint& joint, Body& a, Body& b);
-// What it has done in this substep, as motions of its lighter body count (rigid/substep_motion.h): 52
-// fraction bits.
-std::int64_t work_of_drive(const Joint& joint, const Body& a, const Body& b);
+// What a push that turns b against a, an angle, has done in this substep, as motions of the joint's lighter
+// body count (rigid/substep_motion.h): 52 fraction bits.
+std::int64_t work_of_turning(const Joint& joint, const Body& a, const Body& b, const fixed::Vec3& turned);
 
 } // namespace lks

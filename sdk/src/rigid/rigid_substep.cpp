@@ -533,12 +533,20 @@ void RigidSubstep::collide_objects(std::uint32_t substep) {
     }
 }
 
-// Where light bones may have turned further than a substep follows.
+// Where light bones may have turned further than a substep follows, where joints of what is held are swept
+// one by one, as soft ones are, and at the narrow ends of ellipses, about which limits turn fast.
 bool RigidSubstep::may_gain(const FigureRange& figure) const {
     bool uneven = false;
     for_each_part(scene_, figure, Part::tree,
                   [&](std::uint32_t i) { uneven = uneven || scene_.trees[i].is_uneven; });
-    return uneven || figure.relieved;
+    bool loose = false;
+    if (figure.is_held) {
+        for_each_part(scene_, figure, Part::joint, [&](std::uint32_t i) {
+            const Joint& joint = scene_.joints[i];
+            loose = loose || !joint.in_held_tree || has_ellipse(joint.constants);
+        });
+    }
+    return uneven || loose || figure.relieved;
 }
 
 void RigidSubstep::restore_speeds() {
