@@ -275,3 +275,29 @@ TEST_CASE("ten links with a load of as much, ten or a hundred times hang still a
         }
     }
 }
+
+TEST_CASE("a rope without length bears its load, says so, and breaks of it") {
+    for (const unsigned substeps : substep_numbers) {
+        CAPTURE(substeps);
+        World world(world_def(60, substeps));
+        const lks_body_id hook = add_anchor(world, {});
+        const lks_body_id load = add_body(world, light_box(), {});
+        const lks_joint_id id = add_joint(world, distance(0, 0), hook, load);
+        const double weight = mass_of(world, load) * 9.81;
+        world.step(60);
+        for (int tick = 0; tick < 4; ++tick) {
+            world.step();
+            CHECK(std::abs(pull_of(world, id) / weight - 1) < 0.01);
+        }
+        CHECK(error_of(world, id) < 1e-6);
+        for (const double share : {0.95, 1.05}) {
+            World other(world_def(60, substeps));
+            lks_joint_def def = distance(0, 0);
+            def.break_force = fixed(share * weight);
+            const lks_body_id post = add_anchor(other, {});
+            const lks_joint_id breaking = add_joint(other, def, post, add_body(other, light_box(), {}));
+            other.step(60);
+            CHECK(lks_world_has_joint(other, breaking) == (share > 1 ? 1u : 0u));
+        }
+    }
+}

@@ -84,3 +84,52 @@ TEST_CASE("a chain that a great mass swings on goes on as it was saved") {
         CHECK(other.gap() < 1);
     }
 }
+
+// Between a hundred and a thousand to one nothing told them apart from even ones: up to 11 m.
+TEST_CASE("chains of a few hundred to one stay together while their hook is led") {
+    for (const int links : {4, 8}) {
+        for (const double ratio : {120.0, 500.0, 750.0, 990.0, 1010.0}) {
+            for (const unsigned substeps : {3u, 8u}) {
+                for (const double pace : {1.5, 2.3, 3.1}) {
+                    World world(world_def(60, substeps));
+                    const lks_body_id hook = add_anchor(world, fixed(0, 6, 0));
+                    lks_body_id last = hook;
+                    std::vector<lks_joint_id> joints;
+                    const auto hang = [&](const lks_body_shape& shape, double mass, double height, double up,
+                                          double below) {
+                        lks_body_def def = lks_default_body_def();
+                        def.mass = fixed(mass);
+                        def.filter.mask = 0;
+                        const lks_body_id body = add_body(world, shape, fixed(0, height, 0), def);
+                        lks_joint_def joint = lks_default_joint_def();
+                        joint.frame_a.position = fixed(0, below, 0);
+                        joint.frame_b.position = fixed(0, up, 0);
+                        joints.push_back(add_joint(world, joint, last, body));
+                        last = body;
+                    };
+                    for (int i = 0; i < links; ++i) {
+                        hang(capsule_shape(0.04, 0.12), 2, 5.8 - 0.4 * i, 0.2, i > 0 ? -0.2 : 0);
+                    }
+                    hang(ball_shape(0.4), 2 * ratio, 5.6 - 0.4 * links, 0.4, -0.2);
+                    double apart = 0;
+                    for (int tick = 0; tick < 900; ++tick) {
+                        const double seconds = tick / 60.0;
+                        const double reach = 1.5 * std::min(1.0, seconds / 2);
+                        const lks_transform to =
+                            at(reach * std::sin(pace * seconds), 6, 0.7 * std::sin(1.3 * seconds));
+                        REQUIRE(lks_body_move_to(world, hook, to) == LKS_OK);
+                        world.step();
+                        for (const lks_joint_id joint : joints) {
+                            apart = std::max(apart, error_of(world, joint));
+                        }
+                    }
+                    CAPTURE(links);
+                    CAPTURE(ratio);
+                    CAPTURE(substeps);
+                    CAPTURE(pace);
+                    CHECK(apart < 0.02);
+                }
+            }
+        }
+    }
+}

@@ -1,7 +1,8 @@
 /* Lockstitch: events. What happened to bodies, joints and attachments, for sounds, sparks and game rules.
  *
  * Events are no part of the state and change nothing of it: a world that records them has the same bits as
- * one that does not, and a world that was rolled back gives the same ones again. They come in a canonical
+ * one that does not, and a world that was rolled back gives the same ones again (but for who woke between
+ * the tick and the save). They come in a canonical
  * order: by tick, within it contacts by their bodies' indices, then particles on bodies by the indices of
  * object and body, broken joints, broken attachments, and sleep.
  */

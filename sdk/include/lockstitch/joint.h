@@ -62,15 +62,16 @@ typedef struct lks_joint_def {
     lks_fixed distance_max;  /* metres, distance_min .. 64 */
     /* Of mass m (the lighter of the two bodies) and n substeps a second, what is softer than 2^30 / (m · n²)
      * is as soft as that; angles likewise, with a moment of inertia. */
-    lks_fixed compliance;         /* of the points, m/N, 0 .. 1000 */
-    lks_fixed damping;            /* of soft points, N·s/m, 0 .. 1000000 */
-    lks_fixed angular_compliance; /* of what hinges and fixed joints hold, rad/(N·m), 0 .. 1000 */
-    lks_fixed angular_damping;    /* N·m·s: resists turning by its speed, 0 .. 1000000 */
-    lks_fixed limit_compliance;   /* of swing and twist beyond their limits, rad/(N·m), 0 .. 1000; 0: rigid,
-                                     exceeded by a few degrees at most where substeps suffice */
-    lks_fixed limit_damping;      /* of soft limits, N·m·s: resists going further beyond by its speed,
-                                     0 .. 1000000 */
-    lks_fixed friction;           /* N·m that resist turning, 0 .. 1000000 */
+    lks_fixed compliance; /* of the points, m/N, 0 .. 1000 */
+    lks_fixed damping;    /* of soft points, N·s/m, 0 .. 1000000 */
+    lks_fixed
+        angular_compliance;     /* of what hinges and fixed joints hold, rad/(N·m), 0 .. 1000; of no other */
+    lks_fixed angular_damping;  /* N·m·s: resists turning by its speed, 0 .. 1000000 */
+    lks_fixed limit_compliance; /* of swing and twist beyond their limits, rad/(N·m), 0 .. 1000; 0: rigid,
+                                   exceeded by a few degrees at most where substeps suffice */
+    lks_fixed limit_damping;    /* of soft limits, N·m·s: resists going further beyond by its speed,
+                                   0 .. 1000000 */
+    lks_fixed friction;         /* N·m that resist turning, 0 .. 1000000 */
     /* Where the mean of a tick exceeds them, the joint is removed at its end, with an event; 0: never. */
     lks_fixed break_force;  /* N at the points, 0 .. 8000000 */
     lks_fixed break_torque; /* N·m, 0 .. 8000000 */
@@ -81,7 +82,8 @@ typedef struct lks_joint_def {
 typedef struct lks_motor {
     lks_fixed max_torque; /* N·m, 0 .. 1000000; 0: off */
     lks_fixed response;   /* seconds, 0 .. 100; at least eight substeps */
-    lks_rotation target;  /* of b's frame in a's; of a hinge its turn about the axis counts */
+    lks_rotation target;  /* of b's frame in a's; of a hinge its turn about the axis counts, and it goes there
+                             within its limits; of a ball joint by the shortest way */
 } lks_motor;
 
 /* The limits of a joint that exists: as in lks_joint_def, which says what they mean. */

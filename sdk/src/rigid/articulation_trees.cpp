@@ -17,7 +17,7 @@ constexpr std::int32_t greatest_inverse_shift = 14;
 constexpr std::int64_t farthest_lever = 8;
 
 // Of masses in a tree (ArticulatedTree::is_uneven). Those of ragdolls are far below it.
-constexpr std::int64_t uneven_ratio = 1000;
+constexpr std::int64_t uneven_ratio = 100;
 
 // Of 32 fraction bits and more.
 std::int64_t share_of(const InverseMass& part, const InverseMass& whole, int more_bits = 0) {

@@ -17,10 +17,17 @@ bool is_rod(const JointDescription& d) {
     return d.distance_min == d.distance_max;
 }
 
-// From a's point to b's; where one is in the other: any direction.
-NormalisedVector way_along(const Vec3& offset) {
+// From a's point to b's; where one is in the other: against what it has pushed, or any direction.
+NormalisedVector way_along(const Vec3& offset, const Vec3& pushed) {
     NormalisedVector way{};
-    return fixed::normalise(offset, way) ? way : NormalisedVector{{direction_one, 0, 0}, 0};
+    if (fixed::normalise(offset, way)) {
+        return way;
+    }
+    if (fixed::normalise(-pushed, way)) {
+        way.length = 0;
+        return way;
+    }
+    return NormalisedVector{{direction_one, 0, 0}, 0};
 }
 
 class DistanceRow {
@@ -78,7 +85,7 @@ Range allowed_range(const Joint& joint) {
 
 void begin_distance(Joint& joint, const Body& a, const Body& b) {
     joint.kept_error = 0;
-    const NormalisedVector way = way_along(joint.begin);
+    const NormalisedVector way = way_along(joint.begin, joint.push);
     const std::int64_t error = distance_error(joint.description, way.length);
     if (error != 0 && !is_soft(joint)) {
         const std::int64_t pushed = fixed::dot(way.direction, joint.push);
@@ -91,7 +98,7 @@ void begin_distance(Joint& joint, const Body& a, const Body& b) {
 void project_distance(Joint& joint, Body& a, Body& b) {
     const JointDescription& d = joint.description;
     const Vec3 offset = joint_offset(joint, a, b);
-    const NormalisedVector way = way_along(offset);
+    const NormalisedVector way = way_along(offset, joint.push);
     const bool rod = is_rod(d);
     const auto [least, most] = allowed_range(joint);
     // What the push along the way was, and what it may be: it holds back, or off.
@@ -124,7 +131,7 @@ void undo_distance(const Joint& joint, Body& a, Body& b) {
     if (joint.kept_error == 0) {
         return;
     }
-    const NormalisedVector way = way_along(joint_offset(joint, a, b));
+    const NormalisedVector way = way_along(joint_offset(joint, a, b), joint.push);
     const std::int64_t error = distance_error(joint.description, way.length);
     const std::int64_t undone = std::clamp(error, std::min<std::int64_t>(joint.kept_error, 0),
                                            std::max<std::int64_t>(joint.kept_error, 0));
