@@ -51,11 +51,12 @@ TEST_CASE("a rod against a cone and both limits of its twist is within 1e-5 m af
     }
 }
 
-TEST_CASE("a rod against an ellipse is within 1e-5 m after ten seconds") {
+// Along its edge it slides from bounce to bounce, and soon no two solvers are in the same one.
+TEST_CASE("a rod against an ellipse is within 5e-6 m after a second, 5e-2 m after ten") {
     for (const int substeps : {8, 20}) {
         RigidScene scene(with_substeps(substeps));
         add_rod(scene, 60);
-        check_run("ellipse" + substeps_name(substeps), scene, {5e-6, 2e-5, 30}, {1e-5, 3e-4, 50});
+        check_run("ellipse" + substeps_name(substeps), scene, {5e-6, 2e-5, 30}, {5e-2, 0.15, 0.05});
     }
 }
 

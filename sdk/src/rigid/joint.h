@@ -110,6 +110,11 @@ inline bool has_ellipse(const JointConstants& c) {
     return c.swing_limited && !c.swing_round;
 }
 
+// In its points, or in what a hinge or a fixed joint holds.
+inline bool has_spring(const JointConstants& c) {
+    return c.points.softness != 0 || c.angular_softness != 0;
+}
+
 // What changes. Images and hashes have it in this order, behind the description.
 struct JointState {
     fixed::Rotation motor_target; // b's frame in a's

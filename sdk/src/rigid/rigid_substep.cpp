@@ -543,7 +543,7 @@ bool RigidSubstep::may_gain(const FigureRange& figure) const {
     if (figure.is_held) {
         for_each_part(scene_, figure, Part::joint, [&](std::uint32_t i) {
             const Joint& joint = scene_.joints[i];
-            loose = loose || !joint.in_held_tree || has_ellipse(joint.constants);
+            loose = loose || has_spring(joint.constants) || has_ellipse(joint.constants);
         });
     }
     return uneven || loose || figure.relieved;
