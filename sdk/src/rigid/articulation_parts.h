@@ -70,7 +70,7 @@ struct ArticulatedTree {
     std::uint32_t joint_end;
     bool is_held;   // by a joint to what does not move, or by a rope that such a thing holds
     bool is_loaded; // it hangs on ropes that bear it
-    bool is_uneven; // one of its bodies has a thousand times the mass of another, and more
+    bool is_uneven; // one of its bodies has a hundred times the mass of another, and more
 };
 
 } // namespace lks

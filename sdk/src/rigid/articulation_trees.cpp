@@ -16,8 +16,10 @@ using fixed::Vec3;
 constexpr std::int32_t greatest_inverse_shift = 14;
 constexpr std::int64_t farthest_lever = 8;
 
-// Of masses in a tree (ArticulatedTree::is_uneven). Those of ragdolls are far below it.
+// Of masses in a tree (ArticulatedTree::is_uneven). Those of ragdolls are below it. With ropes that bear them
+// uneven trees are not solved: there even ones bear more.
 constexpr std::int64_t uneven_ratio = 100;
+constexpr std::int64_t uneven_ratio_on_ropes = 1000;
 
 // Of 32 fraction bits and more.
 std::int64_t share_of(const InverseMass& part, const InverseMass& whole, int more_bits = 0) {
@@ -168,13 +170,14 @@ private:
             drop_from(begin, begin_joints);
             return;
         }
+        const std::int64_t most = loaded ? uneven_ratio_on_ropes : uneven_ratio;
         bool uneven = false;
         for (std::size_t i = begin; i < scene_.tree_bodies.size(); ++i) {
             const std::uint32_t body = scene_.tree_bodies[i];
             const std::int64_t share =
                 share_of(scene_.bodies[body].inverse_mass, scene_.bodies[lightest].inverse_mass);
             scene_.articulated[body].share = share;
-            uneven = uneven || share * uneven_ratio <= std::int64_t{1} << 32;
+            uneven = uneven || share * most <= std::int64_t{1} << 32;
         }
         if (uneven && loaded) {
             leave_out_loads(begin);

@@ -26,7 +26,7 @@ namespace lks {
 void carry_torque(RigidScene& scene, const Joint& joint, const fixed::Vec3& push);
 
 // Brings back to zero how much points have parted and what must not turn has turned in this substep, with
-// speed. False: points are further apart than can be told which way to turn, or a thousand times heavier and
+// speed. False: points are further apart than can be told which way to turn, or a hundred times heavier and
 // lighter bodies are to turn further than is safe, and nothing was done.
 bool solve_held_tree(RigidScene& scene, const ArticulatedTree& tree);
 

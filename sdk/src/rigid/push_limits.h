@@ -11,7 +11,7 @@ namespace lks {
 // carry ever more on.
 inline constexpr std::int64_t greatest_push = std::int64_t{1} << 50;
 
-// In trees of which a body has a thousand times the mass of another, and more (rigid/uneven_tree.h), 262 km:
+// In trees of which a body has a hundred times the mass of another, and more (rigid/uneven_tree.h), 262 km:
 // what a heavy body pulls with counts as the length that it would move the lightest one by.
 inline constexpr std::int64_t greatest_uneven_push = std::int64_t{1} << 58;
 // Of all substeps of a tick.

@@ -1,4 +1,4 @@
-// The same elimination as in rigid/articulation.h for trees with a thousand times the mass of one body in
+// The same elimination as in rigid/articulation.h for trees with a hundred times the mass of one body in
 // another, and more, with more bits.
 //
 // Where a heavy body hangs on a light one, folding it in leaves of what the light one gives way along the
