@@ -15,17 +15,34 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-double kinetic_energy(const World& world) {
-    lks_fixed energy = 0;
-    REQUIRE(lks_world_kinetic_energy(world, &energy) == LKS_OK);
-    return metres(energy);
-}
+// A rod that stands on a joint whose axis points up, limited towards x and z, and is tipped over towards an
+// azimuth.
+struct Tipped {
+    Tipped(double x, double z, double friction, double azimuth, unsigned substeps)
+        : world(world_def(60, substeps)) {
+        lks_joint_def def = lks_default_joint_def();
+        def.frame_b.position = fixed(0, -0.3, 0);
+        def.swing_limit = fixed(x);
+        def.swing_limit_z = fixed(z);
+        def.friction = fixed(friction);
+        lks_body_def body = lks_default_body_def();
+        body.never_sleeps = 1;
+        const lks_body_id rod = add_body(world, capsule_shape(0.03, 0.27), fixed(0, 0.3, 0), body);
+        joint = add_joint(world, def, add_anchor(world, {}), rod);
+        world.step();
+        const lks_vec3 spin = fixed(2 * std::sin(azimuth * degree), 0, -2 * std::cos(azimuth * degree));
+        REQUIRE(lks_body_set_velocity(world, rod, {}, spin) == LKS_OK);
+    }
 
-double swing_of(const World& world, lks_joint_id joint) {
-    lks_fixed swing = 0;
-    REQUIRE(lks_joint_angles(world, joint, &swing, nullptr) == LKS_OK);
-    return metres(swing);
-}
+    double swing() const {
+        lks_fixed swing = 0;
+        REQUIRE(lks_joint_angles(world, joint, &swing, nullptr) == LKS_OK);
+        return metres(swing);
+    }
+
+    World world;
+    lks_joint_id joint{};
+};
 
 // Of four links of a kilogram that whirl without weight, the greatest kinetic energy in ten seconds over that
 // of the first tick. soft: which joint is.
@@ -53,11 +70,11 @@ double greatest_gain(double x, double z, int soft, unsigned substeps, std::uint6
         last = link;
     }
     world.step();
-    const double start = kinetic_energy(world);
+    const double start = energy_of(world);
     double most = 0;
     for (int tick = 0; tick < 600; ++tick) {
         world.step();
-        most = std::max(most, kinetic_energy(world));
+        most = std::max(most, energy_of(world));
     }
     return most / start;
 }
@@ -66,60 +83,33 @@ double greatest_gain(double x, double z, int soft, unsigned substeps, std::uint6
 
 TEST_CASE("what leans on an ellipse slides along its edge to where it is lowest") {
     for (const unsigned substeps : {4u, 20u}) {
-        for (const double start : {22.5, 45.0, 67.5, 112.5}) {
+        for (const double azimuth : {22.5, 45.0, 67.5, 112.5}) {
             CAPTURE(substeps);
-            CAPTURE(start);
-            // The axis points up, so that what has swung the farthest hangs the lowest: by 120 degrees
-            // towards x.
-            World world(world_def(60, substeps));
-            const lks_body_id anchor = add_anchor(world, {});
-            lks_joint_def def = lks_default_joint_def();
-            def.frame_b.position = fixed(0, -0.3, 0);
-            def.swing_limit = fixed(120);
-            def.swing_limit_z = fixed(40);
-            def.friction = fixed(0.05);
-            lks_body_def body = lks_default_body_def();
-            body.never_sleeps = 1;
-            const lks_body_id rod = add_body(world, capsule_shape(0.03, 0.27), fixed(0, 0.3, 0), body);
-            const lks_joint_id joint = add_joint(world, def, anchor, rod);
-            world.step();
-            // Tipped over that way, and left to itself.
-            const double x = std::cos(start * degree);
-            const double z = std::sin(start * degree);
-            REQUIRE(lks_body_set_velocity(world, rod, {}, fixed(2 * z, 0, -2 * x)) == LKS_OK);
+            CAPTURE(azimuth);
+            // What has swung the farthest hangs the lowest: by 120 degrees towards x.
+            Tipped tipped(120, 40, 0.05, azimuth, substeps);
             double farthest = 0;
             for (int tick = 0; tick < 1200; ++tick) {
-                world.step();
-                farthest = std::max(farthest, swing_of(world, joint));
+                tipped.world.step();
+                farthest = std::max(farthest, tipped.swing());
             }
             CHECK(farthest < 121);
-            CHECK(swing_of(world, joint) > 118);
+            CHECK(tipped.swing() > 118);
         }
     }
 }
 
 TEST_CASE("a slot that is hardly open across ends where its limit is") {
     for (const unsigned substeps : {2u, 8u, 20u}) {
-        for (const double start : {30.0, 60.0, 120.0}) {
+        for (const double azimuth : {30.0, 60.0, 120.0}) {
             CAPTURE(substeps);
-            CAPTURE(start);
-            World world(world_def(60, substeps));
-            const lks_body_id anchor = add_anchor(world, {});
-            lks_joint_def def = lks_default_joint_def();
-            def.frame_b.position = fixed(0, -0.3, 0);
-            def.swing_limit = fixed(0.05);
-            def.swing_limit_z = fixed(60);
-            const lks_body_id rod = add_body(world, capsule_shape(0.03, 0.27), fixed(0, 0.3, 0));
-            const lks_joint_id joint = add_joint(world, def, anchor, rod);
-            world.step();
-            const double x = std::cos(start * degree);
-            const double z = std::sin(start * degree);
-            REQUIRE(lks_body_set_velocity(world, rod, {}, fixed(2 * z, 0, -2 * x)) == LKS_OK);
+            CAPTURE(azimuth);
+            Tipped tipped(0.05, 60, 0, azimuth, substeps);
             for (int tick = 0; tick < 600; ++tick) {
-                world.step();
-                CHECK(swing_of(world, joint) < 61);
+                tipped.world.step();
+                CHECK(tipped.swing() < 61);
             }
-            CHECK(swing_of(world, joint) > 55);
+            CHECK(tipped.swing() > 55);
         }
     }
 }
