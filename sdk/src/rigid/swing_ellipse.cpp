@@ -22,7 +22,8 @@ std::int64_t cubed(std::int64_t c) {
 
 // The parameter (cosine, sine) of the point of an ellipse that is next to p, both in the first quadrant: the
 // centre of curvature of each guess takes the place of the ellipse's (A. Chlumský, Simple Method for Distance
-// to Ellipse). Four rounds leave less than 1e-4 of the longer half axis, however thin it is.
+// to Ellipse). However thin it is four rounds leave 2e-4 of the longer half axis next to the edge, and 4e-4
+// at 1.3 times as far (the worst of 6,000 at random with half axes of 0.05 to 180 degrees).
 Direction nearest(std::int64_t half_x, std::int64_t half_z, std::int64_t p_x, std::int64_t p_z) {
     constexpr int rounds = 4;
     constexpr std::int32_t root_of_half = 759250125;
