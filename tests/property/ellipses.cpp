@@ -117,7 +117,8 @@ TEST_CASE("a slot that is hardly open across ends where its limit is") {
 TEST_CASE("chains with ellipses gain nothing, rigid ones and with a soft joint") {
     for (const unsigned substeps : {8u, 20u}) {
         for (const int soft : {-1, 0, 3}) {
-            for (const auto& [x, z] : {std::pair{20.0, 90.0}, std::pair{30.0, 45.0}}) {
+            for (const double x : {20.0, 30.0}) {
+                const double z = x < 25 ? 90 : 45;
                 CAPTURE(substeps);
                 CAPTURE(soft);
                 CAPTURE(x);

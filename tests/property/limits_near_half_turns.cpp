@@ -59,7 +59,9 @@ TEST_CASE("a limit near a half turn holds what is turned against it") {
     const double limits[][2] = {{0, 180},     {-180, 0}, {170, 180}, {-180, -170}, {180, 180},
                                 {-180, -180}, {90, 175}, {-30, 171}, {100, 150}};
     for (const std::uint32_t kind : {LKS_JOINT_HINGE, LKS_JOINT_BALL}) {
-        for (const auto& [least, most] : limits) {
+        for (const double(&pair)[2] : limits) {
+            const double least = pair[0];
+            const double most = pair[1];
             for (const unsigned substeps : substep_numbers) {
                 for (const int way : {-1, 1}) {
                     CAPTURE(kind);
