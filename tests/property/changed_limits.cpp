@@ -63,6 +63,17 @@ lks_joint_def rope_of(double length) {
     return joint;
 }
 
+struct HungBall {
+    lks_body_id load;
+    lks_joint_id rope;
+};
+
+// From two metres up, by a rope of one.
+HungBall hang_ball(const World& world, const lks_vec3& place) {
+    const lks_body_id load = add_body(world, ball_shape(0.1), place);
+    return {load, add_joint(world, rope_of(1), add_anchor(world, fixed(0, 2, 0)), load)};
+}
+
 lks_joint_def hinge(double least, double most) {
     lks_joint_def joint = lks_default_joint_def();
     joint.kind = LKS_JOINT_HINGE;
@@ -196,9 +207,9 @@ TEST_CASE("a hatch that its hinge has held falls when that has no limit any more
 
 TEST_CASE("other limits wake the bodies, the same ones don't") {
     World world(world_def(60, 8));
-    const lks_body_id hook = add_anchor(world, fixed(0, 2, 0));
-    const lks_body_id load = add_body(world, ball_shape(0.1), fixed(0, 1, 0));
-    const lks_joint_id rope = add_joint(world, rope_of(1), hook, load);
+    const HungBall hung = hang_ball(world, fixed(0, 1, 0));
+    const lks_body_id load = hung.load;
+    const lks_joint_id rope = hung.rope;
     world.step(600);
     REQUIRE(lks_body_is_awake(world, load) == 0);
     const std::uint64_t hash = world.hash();
@@ -214,9 +225,7 @@ TEST_CASE("other limits wake the bodies, the same ones don't") {
 
 TEST_CASE("changed limits are part of the state") {
     World world(world_def(60, 8));
-    const lks_body_id hook = add_anchor(world, fixed(0, 2, 0));
-    const lks_body_id load = add_body(world, ball_shape(0.1), fixed(0.6, 1.2, 0));
-    const lks_joint_id rope = add_joint(world, rope_of(1), hook, load);
+    const lks_joint_id rope = hang_ball(world, fixed(0.6, 1.2, 0)).rope;
     world.step(30);
     set_longest(world, rope, 0.8);
     const Image image = world.save();

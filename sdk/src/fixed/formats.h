@@ -35,6 +35,10 @@ inline constexpr std::uint32_t unit_one = std::uint32_t{1} << unit_fraction_bits
 // [-1, 1].
 inline constexpr int direction_fraction_bits = 30;
 inline constexpr std::int32_t direction_one = std::int32_t{1} << direction_fraction_bits;
+// Exact.
+constexpr std::int64_t world_from_direction(std::int32_t component) {
+    return component * (std::int64_t{1} << (world_fraction_bits - direction_fraction_bits));
+}
 
 // World positions of origins and colliders stay within ±8,388,000 m.
 inline constexpr std::int64_t world_position_limit = std::int64_t{8388000} << world_fraction_bits;

@@ -127,8 +127,7 @@ Vec3 to_local(const PlacedShape& placed, const Vec3& p) {
 // In the world, of length one in World.
 lks_vec3 world_normal(const PlacedShape& placed, const fixed::Direction& normal) {
     const fixed::Direction n = fixed::rotate(placed.axes, normal);
-    constexpr std::int64_t scale = std::int64_t{1} << (world_fraction_bits - 30);
-    return {n.x * scale, n.y * scale, n.z * scale};
+    return {world_from_direction(n.x), world_from_direction(n.y), world_from_direction(n.z)};
 }
 
 // p less a length along a normal.

@@ -34,9 +34,9 @@ lks_event make_event(const lks_world& world, lks_event_kind kind) {
 }
 
 void set_place(lks_event& event, const fixed::Vec3& place, const fixed::Direction& normal) {
-    const auto widen = [](std::int32_t c) { return std::int64_t{c} << (world_fraction_bits - 30); };
     event.point = {place.x, place.y, place.z};
-    event.normal = {widen(normal.x), widen(normal.y), widen(normal.z)};
+    event.normal = {world_from_direction(normal.x), world_from_direction(normal.y),
+                    world_from_direction(normal.z)};
 }
 
 lks_body_id body_id(const RigidScene& scene, std::uint32_t index) {
