@@ -249,13 +249,13 @@ private:
                 continue;
             }
             joint.in_tree = true;
-            ArticulatedJoint part{};
+            static_cast<void>(scene_.tree_joints.resize(scene_.tree_joints.size() + 1)); // within its room
+            ArticulatedJoint& part = scene_.tree_joints[scene_.tree_joints.size() - 1];
             part.joint = joint_of(*link);
             part.parent = parent;
             part.child_is_a = joint.description.body_b == parent;
             part.child = part.child_is_a ? joint.description.body_a : joint.description.body_b;
             part.child_moves = scene_.bodies[part.child].is_awake();
-            scene_.tree_joints.push_reserved(part);
             if (part.child_moves) {
                 scene_.tree_bodies.push_reserved(part.child);
             }

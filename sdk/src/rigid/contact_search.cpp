@@ -370,16 +370,22 @@ private:
         const Vec3 between = body_b.position - body_a.position;
         for (std::uint32_t i = 0; i < description_a.shape_count; ++i) {
             for (std::uint32_t j = 0; j < shapes_b; ++j) {
-                Piece piece_b = with_collider ? piece_of_collider(body_b, collider_of(other), body_a.position)
-                                              : piece(other, j);
-                if (!with_collider) {
-                    piece_b.centre = piece_b.centre + between;
-                }
-                if (piece_b.kind != LKS_SHAPE_PLANE &&
-                    passes_by(saturating_subtract(piece_b.centre, piece(a, i).centre), way,
-                              room_around(piece_extent(a, i),
-                                          with_collider ? extent(piece_b) : piece_extent(other, j), room))) {
-                    continue;
+                Piece piece_b;
+                if (with_collider) {
+                    piece_b = piece_of_collider(body_b, collider_of(other), body_a.position);
+                    if (piece_b.kind != LKS_SHAPE_PLANE &&
+                        passes_by(saturating_subtract(piece_b.centre, piece(a, i).centre), way,
+                                  room_around(piece_extent(a, i), extent(piece_b), room))) {
+                        continue;
+                    }
+                } else {
+                    const Vec3 centre = piece(other, j).centre + between;
+                    if (passes_by(saturating_subtract(centre, piece(a, i).centre), way,
+                                  room_around(piece_extent(a, i), piece_extent(other, j), room))) {
+                        continue;
+                    }
+                    piece_b = piece(other, j);
+                    piece_b.centre = centre;
                 }
                 FoundContact found;
                 found.key = {a, other, i * LKS_MAX_BODY_SHAPES + j};

@@ -9,7 +9,7 @@ Overlaps::Overlaps(const lks_allocator& allocator)
 
 bool Overlaps::reserve(std::uint32_t count) {
     std::size_t buckets = 16;
-    while (buckets < 2 * std::size_t{count}) {
+    while (buckets < 4 * std::size_t{count}) {
         buckets *= 2;
     }
     return boxes_.reserve(count) && levels_.reserve(count) && buckets_.reserve(count) &&
@@ -19,7 +19,7 @@ bool Overlaps::reserve(std::uint32_t count) {
 void Overlaps::sort_into_cells() {
     const auto count = static_cast<std::uint32_t>(boxes_.size());
     std::uint32_t bucket_count = 16;
-    while (bucket_count < 2 * count) {
+    while (bucket_count < 4 * count) {
         bucket_count *= 2;
     }
     bucket_mask_ = bucket_count - 1;

@@ -6,6 +6,7 @@
 // the one in the earlier cell.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "fixed/vector.h"
@@ -19,8 +20,9 @@ struct Box {
     fixed::Vec3 high;
 
     bool overlaps(const Box& other) const {
-        return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y &&
-               other.low.y <= high.y && low.z <= other.high.z && other.low.z <= high.z;
+        // All of it, without branches: which of them fails can't be foretold.
+        return ((low.x <= other.high.x) & (other.low.x <= high.x) & (low.y <= other.high.y) &
+                (other.low.y <= high.y) & (low.z <= other.high.z) & (other.low.z <= high.z)) != 0;
     }
 };
 
@@ -37,17 +39,18 @@ public:
     template <typename Use>
     void for_each_pair(const Use& use) {
         sort_into_cells();
-        for_each_search([&](std::uint32_t i, std::uint32_t level, const Cell& cell, bool own) {
-            search_cell(i, level, cell, own, use);
+        for_each_search([&](std::uint32_t i, std::uint32_t level, const Row& row) {
+            for_each_part(row, level, [&](std::uint32_t first, std::uint32_t end) {
+                search(i, level, row, first, end, use);
+            });
         });
     }
 
     // How often the last for_each_pair has looked at a box in a cell: its work, whatever the machine.
     std::uint64_t looks() const {
         std::uint64_t sum = 0;
-        for_each_search([&](std::uint32_t, std::uint32_t level, const Cell& cell, bool) {
-            const std::uint32_t bucket = bucket_of(cell, level);
-            sum += starts_[bucket + 1] - starts_[bucket];
+        for_each_search([&](std::uint32_t, std::uint32_t level, const Row& row) {
+            for_each_part(row, level, [&sum](std::uint32_t first, std::uint32_t end) { sum += end - first; });
         });
         return sum;
     }
@@ -73,19 +76,26 @@ private:
         std::uint32_t level;
     };
 
+    // Cells that follow each other along z stand in buckets that do.
     std::uint32_t bucket_of(const Cell& cell, std::uint32_t level) const {
         std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x9e3779b97f4a7c15u;
         hash = (hash ^ static_cast<std::uint64_t>(cell.y)) * 0xc2b2ae3d27d4eb4fu;
-        hash = (hash ^ static_cast<std::uint64_t>(cell.z)) * 0x165667b19e3779f9u;
         hash += level * std::uint64_t{0x27d4eb2f165667c5u};
-        return static_cast<std::uint32_t>(hash >> 32) & bucket_mask_;
+        return (static_cast<std::uint32_t>(hash >> 32) + static_cast<std::uint32_t>(cell.z)) & bucket_mask_;
     }
     void sort_into_cells();
 
+    // Cells along z, which are searched at once.
+    struct Row {
+        Cell first;
+        std::int64_t last_z;
+        bool own; // `first` is the cell in which the box begins: only what follows it is found there
+    };
+
     // At its own level a pair is found by the one in the earlier cell, or else by the lower index.
-    // visit(cell, own): where it begins itself.
+    // visit(row)
     template <typename Visit>
-    void for_each_cell(std::uint32_t i, std::uint32_t level, const Visit& visit) const {
+    void for_each_row(std::uint32_t i, std::uint32_t level, const Visit& visit) const {
         const Box& box = boxes_[i];
         const Cell first = cell_of(box.low, level);
         const Cell last = cell_of(box.high, level);
@@ -94,33 +104,48 @@ private:
             const bool own_x = own && x == first.x;
             for (std::int64_t y = own_x ? first.y : first.y - 1; y <= last.y; ++y) {
                 const bool own_y = own_x && y == first.y;
-                for (std::int64_t z = own_y ? first.z : first.z - 1; z <= last.z; ++z) {
-                    visit(Cell{x, y, z}, own_y && z == first.z);
-                }
+                visit(Row{{x, y, own_y ? first.z : first.z - 1}, last.z, own_y});
             }
         }
     }
 
+    // visit(i, level, row)
     template <typename Visit>
     void for_each_search(const Visit& visit) const {
         for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
             for (std::uint32_t level = levels_[i]; level <= greatest_level; ++level) {
                 if ((present_ >> level & 1) != 0) {
-                    for_each_cell(i, level, [&](const Cell& cell, bool own) { visit(i, level, cell, own); });
+                    for_each_row(i, level, [&](const Row& row) { visit(i, level, row); });
                 }
             }
         }
     }
 
+    // use(first, end): a row's buckets in sorted_. They may go on at the first one.
     template <typename Use>
-    void search_cell(std::uint32_t i, std::uint32_t level, const Cell& cell, bool own, const Use& use) {
-        const std::uint32_t bucket = bucket_of(cell, level);
+    void for_each_part(const Row& row, std::uint32_t level, const Use& use) const {
+        const std::uint32_t first = bucket_of(row.first, level);
+        const std::uint32_t end = first + static_cast<std::uint32_t>(row.last_z - row.first.z) + 1;
+        const std::uint32_t buckets = bucket_mask_ + 1;
+        use(starts_[first], starts_[std::min(end, buckets)]);
+        if (end > buckets) [[unlikely]] {
+            use(0, starts_[std::min(end - buckets, first)]);
+        }
+    }
+
+    template <typename Use>
+    void search(std::uint32_t i, std::uint32_t level, const Row& row, std::uint32_t first, std::uint32_t end,
+                const Use& use) const {
         const Box box = boxes_[i];
-        const Entry* const end = sorted_.begin() + starts_[bucket + 1];
-        for (const Entry* entry = sorted_.begin() + starts_[bucket]; entry != end; ++entry) {
-            const std::uint32_t j = entry->index;
-            if (entry->level != level || !box.overlaps(entry->box) || (own && j <= i) ||
-                !(cell_of(entry->box.low, level) == cell)) {
+        for (std::uint32_t place = first; place < end; ++place) {
+            const Entry& entry = sorted_[place];
+            if (entry.level != level || !box.overlaps(entry.box)) {
+                continue;
+            }
+            const std::uint32_t j = entry.index;
+            const Cell cell = cell_of(entry.box.low, level);
+            if (cell.x != row.first.x || cell.y != row.first.y || cell.z < row.first.z ||
+                cell.z > row.last_z || (row.own && cell.z == row.first.z && j <= i)) {
                 continue;
             }
             use(i < j ? i : j, i < j ? j : i);

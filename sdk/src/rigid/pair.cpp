@@ -83,6 +83,20 @@ Vec3 clamped_turn(const Vec3& half_turn) {
     return {part(half_turn.x), part(half_turn.y), part(half_turn.z)};
 }
 
+// q += τ⊗q, τ of so many fraction bits.
+template <int bits>
+void add_turn(Quaternion& to, const Vec3& half_turn) {
+    const auto [x, y, z] = half_turn;
+    const fixed::Rotation q = narrow(to);
+    const auto part = [](std::int64_t c) {
+        return fixed::shift_right_rounded(c, bits + 30 - turn_fraction_bits);
+    };
+    to.x += part(x * q.w + y * q.z - z * q.y);
+    to.y += part(y * q.w + z * q.x - x * q.z);
+    to.z += part(z * q.w + x * q.y - y * q.x);
+    to.w -= part(x * q.x + y * q.y + z * q.z);
+}
+
 } // namespace
 
 bool heavier(const InverseMass& a, const InverseMass& b) {
@@ -205,30 +219,25 @@ void add_turning_block(const Body& body, std::int32_t share, int reach, std::int
 }
 
 void turn_body(Body& body, const Vec3& half_turn) {
-    auto [x, y, z] = clamped_turn(half_turn);
-    if ((x | y | z) == 0) {
+    if ((half_turn.x | half_turn.y | half_turn.z) == 0) {
         return;
     }
-    // q += τ⊗q with 40 + 30 fraction bits, of which a large turn would need more than 64.
-    const bool is_large = std::max({x, y, z}) > small_half_turn || std::min({x, y, z}) < -small_half_turn;
-    int down = half_turn_bits + 30 - turn_fraction_bits;
-    if (is_large) {
+    // Of a large turn q += τ⊗q would need more than 64 bits.
+    const auto is_large = [](std::int64_t c) {
+        return static_cast<std::uint64_t>(c) + small_half_turn > 2 * std::uint64_t{small_half_turn};
+    };
+    if (is_large(half_turn.x) | is_large(half_turn.y) | is_large(half_turn.z)) [[unlikely]] {
         constexpr int coarser = 7;
-        x = fixed::shift_right_rounded(x, coarser);
-        y = fixed::shift_right_rounded(y, coarser);
-        z = fixed::shift_right_rounded(z, coarser);
-        down -= coarser;
-    }
-    const fixed::Rotation q = narrow(body.orientation);
-    const auto part = [down](std::int64_t c) { return fixed::shift_right_rounded(c, down); };
-    Quaternion& to = body.orientation;
-    to.x += part(x * q.w + y * q.z - z * q.y);
-    to.y += part(y * q.w + z * q.x - x * q.z);
-    to.z += part(z * q.w + x * q.y - y * q.x);
-    to.w -= part(x * q.x + y * q.y + z * q.z);
-    // Small turns leave the length as it is but for their square, and the end of the substep sees to that.
-    if (is_large) {
-        to = normalise(to);
+        const Vec3 clamped = clamped_turn(half_turn);
+        add_turn<half_turn_bits - coarser>(body.orientation,
+                                           {fixed::shift_right_rounded(clamped.x, coarser),
+                                            fixed::shift_right_rounded(clamped.y, coarser),
+                                            fixed::shift_right_rounded(clamped.z, coarser)});
+        // Small turns leave the length as it is but for their square, and the end of the substep sees to
+        // that.
+        body.orientation = normalise(body.orientation);
+    } else {
+        add_turn<half_turn_bits>(body.orientation, half_turn);
     }
     body.follow_orientation();
 }

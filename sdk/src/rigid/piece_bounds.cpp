@@ -45,10 +45,11 @@ Vec3 extent(const Piece& piece) {
 bool passes_by(const Vec3& between, const Vec3& way, const Vec3& room) {
     const auto outside = [](std::int64_t d, std::int64_t change, std::int64_t half) {
         const std::int64_t end = fixed::saturating_add(d, change);
-        return std::min(d, end) > half || std::max(d, end) < -half;
+        return static_cast<int>(std::min(d, end) > half) | static_cast<int>(std::max(d, end) < -half);
     };
-    return outside(between.x, way.x, room.x) || outside(between.y, way.y, room.y) ||
-           outside(between.z, way.z, room.z);
+    // Without branches: along which axis can't be foretold.
+    return (outside(between.x, way.x, room.x) | outside(between.y, way.y, room.y) |
+            outside(between.z, way.z, room.z)) != 0;
 }
 
 } // namespace lks
