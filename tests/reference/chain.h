@@ -21,10 +21,11 @@ public:
     // Inverse masses and positions along the rope.
     ChainSystem(std::vector<Scalar> inverse_masses, std::vector<Vec> positions)
         : w_(std::move(inverse_masses)), x_(std::move(positions)), segments_(x_.size() - 1),
-          directions_(x_.size() - 1) {
+          directions_(x_.size() - 1), lengths_(x_.size() - 1) {
         for (std::size_t j = 0; j + 1 < x_.size(); ++j) {
             const Vec d = x_[j + 1] - x_[j];
             const Scalar length = d.length();
+            lengths_[j] = length;
             directions_[j] = length > 0 ? d * (1 / length) : Vec();
         }
     }
@@ -93,14 +94,15 @@ public:
     }
 
 private:
-    // |λ|/L beyond what κ = 1/4 is at the lighter end.
+    // |λ|/L beyond what κ = 1/4 is at the lighter end. Soft segments turn as long as they are.
     std::vector<Scalar> excess_stiffness() const {
         std::vector<Scalar> result(segments_.size());
         for (std::size_t j = 0; j < segments_.size(); ++j) {
             const Scalar lighter = std::max(w_[j], w_[j + 1]);
             if (lighter > 0) {
-                result[j] = std::max(
-                    std::abs(segments_[j].multiplier) / segments_[j].rest - 1 / (4 * lighter), Scalar(0));
+                const Segment& s = segments_[j];
+                const Scalar length = s.softness > 0 ? std::max(s.rest, lengths_[j]) : s.rest;
+                result[j] = std::max(std::abs(s.multiplier) / length - 1 / (4 * lighter), Scalar(0));
             }
         }
         return result;
@@ -140,6 +142,7 @@ private:
     std::vector<Vec> x_;
     std::vector<Segment> segments_;
     std::vector<Vec> directions_;
+    std::vector<Scalar> lengths_;
     bool off_ = false;
 };
 

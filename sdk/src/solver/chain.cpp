@@ -67,17 +67,20 @@ public:
     // `again`: after itself, in the same substep.
     bool run(bool again) {
         off_ = false;
+        any_long_ = false;
         const bool simple = !torn_ && !eased_ && family_.damping_share == 0 && chain_.pinned_count < 2;
         if (!(simple ? eliminate<true>() : eliminate<false>())) {
             return false;
         }
         substitute();
+        push_particles(0);
+        if (any_long_ && moves_too_far()) {
+            return false;
+        }
         if (!stiffen(again)) {
-            push_particles(0);
             move_particles();
             return true;
         }
-        push_particles(0);
         units_ = units_to_carry();
         if (units_ != 0) {
             push_particles(units_);
@@ -96,6 +99,8 @@ public:
     bool is_off() const { return off_; }
 
 private:
+    bool is_soft() const { return chain_.softness != 0; }
+
     Vec3 position(std::uint32_t index) const {
         const std::uint32_t p = chain_.particles[index];
         return {arrays_.x[p], arrays_.y[p], arrays_.z[p]};
@@ -183,11 +188,15 @@ private:
         // Kernels read on to the end of a group.
         std::fill_n(segments.lengths + count, std::min(chain_block - count, chain_padding),
                     rest_behind_the_end);
-        if (!(simple ? kernels_.chain.stretch(segments) : take_changes(segments, first))) {
+        const bool stretched = simple && kernels_.chain.stretch(segments);
+        if (!stretched && ((simple && !is_soft()) || !take_changes(segments, first))) {
             return false;
         }
         for (int axis = 0; axis < 3; ++axis) {
             std::copy_n(segments.directions[axis], count, work_.directions[axis] + first);
+        }
+        if (is_soft()) {
+            std::copy_n(segments.lengths, count, work_.lengths + first);
         }
         ChainRows rows;
         rows.count = count;
@@ -267,7 +276,10 @@ private:
             const std::int64_t length = segments.lengths[i];
             // Neither is negative.
             if (!torn_ && length - rest > chain_.slacks[index]) {
-                return false;
+                if (!is_soft()) {
+                    return false;
+                }
+                any_long_ = true;
             }
             const fixed::Direction along{static_cast<std::int32_t>(segments.directions[0][i]),
                                          static_cast<std::int32_t>(segments.directions[1][i]),
@@ -384,11 +396,34 @@ private:
                            chain_.far_shares.data(),
                            work_.near,
                            work_.far};
-        const bool any = kernels_.chain.stiffen(task);
+        bool any = kernels_.chain.stiffen(task);
+        if (any && is_soft()) { // there is none where there would be none at lengths of rest
+            task.tensions = tensions_at_length(tensions);
+            any = kernels_.chain.stiffen(task);
+        }
         if (any && tensions != work_.tensions) {
             std::copy_n(tensions, count_, work_.tensions);
         }
         return any;
+    }
+
+    // A tension turns with its segment the less the longer that is: κ is over the length, not that at rest.
+    // Where the multipliers' factors were, which nothing reads any more.
+    const std::int64_t* tensions_at_length(const std::int64_t* tensions) const {
+        constexpr int ratio_bits = 31;
+        std::int64_t* const scaled = work_.carried;
+        std::fill_n(scaled + count_, chain_padding, 0); // kernels read on
+        for (std::uint32_t j = 0; j < count_; ++j) {
+            const auto length = static_cast<std::uint64_t>(work_.lengths[j]);
+            const auto rest = static_cast<std::uint64_t>(chain_.rest_lengths[j]);
+            scaled[j] = tensions[j];
+            if (length > rest) {
+                const int down = std::max(64 - std::countl_zero(length) - 32, 0);
+                const std::uint64_t ratio = ((rest >> down) << ratio_bits) / (length >> down);
+                scaled[j] = multiply_shift(tensions[j], static_cast<std::int64_t>(ratio), ratio_bits);
+            }
+        }
+        return scaled;
     }
 
     // How the particles move by the multipliers, in units of 2^units coordinate units; by the limit at most.
@@ -411,6 +446,24 @@ private:
                 pushes[0] = pushes[count];
             }
         });
+    }
+
+    // Whether the ends of a segment that is too long, soft as it is, would move against each other by so much
+    // that it is torn. Otherwise it hangs from a load.
+    bool moves_too_far() const {
+        constexpr std::int64_t parts = 16; // of its length
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const std::int64_t length = work_.lengths[i];
+            if (length - chain_.rest_lengths[i] <= chain_.slacks[i]) {
+                continue;
+            }
+            for (const std::int64_t* const movements : work_.movements) {
+                if (!within(movements[i + 1] - movements[i], length / parts)) {
+                    return true;
+                }
+            }
+        }
+        return false;
     }
 
     // None, but where a movement was limited, on which the second pass must not build: the pushes of
@@ -603,7 +656,8 @@ private:
     bool torn_;
     bool eased_; // multipliers so far count
     bool off_ = false;
-    int units_ = 0; // of movements in the second pass: 2^units_ coordinate units
+    bool any_long_ = false; // of a soft rope: it may be torn, or hang from a load
+    int units_ = 0;         // of movements in the second pass: 2^units_ coordinate units
     std::uint64_t softness_;
     std::uint64_t taut_ = rest_one; // what rest lengths are multiplied by in the piece at hand
 };

@@ -30,7 +30,8 @@
 //
 // of which the part across the rope is kept: along it the solve is right already. The system is eliminated in
 // means with weights in [0, 1], of movement with movement. Below 1/4 there is nothing to do, and it costs
-// nothing. In a rope without pins the mean of what it changed is taken off again: momentum is kept.
+// nothing. Of a soft rope L is how long the segment is, if that is more than at rest. In a rope without pins
+// the mean of what it changed is taken off again: momentum is kept.
 //
 // The part across the rope is not quite across each of its segments, and long movements turn them: what that
 // leaves of errors would be speed in the next substep, which heavy particles give to light ones between them
@@ -44,6 +45,10 @@
 // torn rope is swept first, and then solved for changes that are short against its segments; both again
 // until it is whole, or for so many times. One that contacts tear again is left swept
 // (solver/object_tick.cpp).
+//
+// A soft rope that hangs from its load may be longer than that, and is not torn: one is only if the solve
+// would move the ends of a segment that is too long by more than a sixteenth of its length against each
+// other.
 #pragma once
 
 #include <cstddef>
@@ -80,6 +85,7 @@ public:
         near = array();
         far = array();
         gives = array();
+        lengths = array();
     }
 
     // Zero behind so many, as far as kernels read.
@@ -105,10 +111,11 @@ public:
     std::int64_t* tensions;    // the multipliers of this substep so far
     std::int64_t* near;        // κ beyond what is stable by itself, of the ends
     std::int64_t* far;
-    std::int64_t* gives; // what the far end takes of the near one's movement, carried_bits
+    std::int64_t* gives;   // what the far end takes of the near one's movement, carried_bits
+    std::int64_t* lengths; // Coordinate, of soft ropes only
 
 private:
-    static constexpr std::size_t array_count = 15;
+    static constexpr std::size_t array_count = 16;
     static constexpr std::size_t length(std::size_t segments) { return segments + 1 + chain_padding; }
 
     std::size_t length_;
@@ -121,7 +128,7 @@ inline std::size_t kept_words(const lks_asset& asset) {
 }
 
 // One iteration. `memory` has room for the work. False where a segment is torn, or the solve tore it: longer
-// than twice its rest length, more where it is soft.
+// than twice its rest length, or where it is soft more, and about to move too far.
 [[nodiscard]] bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,
                                const DistanceArrays& arrays, const Kernels& kernels, std::int64_t* memory);
 
