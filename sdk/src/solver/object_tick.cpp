@@ -80,6 +80,7 @@ public:
         hold_by_tethers();
         sweep_batches();
         leave_rows();
+        end_substep();
     }
 
     void collide(std::uint32_t substep) {
@@ -128,6 +129,13 @@ public:
         }
     }
 
+    void end_substep() {
+        if (began_torn_) {
+            limit_speeds_of_mending();
+            began_torn_ = false;
+        }
+    }
+
     // Before anything but constraints asks where particles are.
     void leave_rows() {
         if (!are_in_rows_) {
@@ -170,7 +178,7 @@ public:
             bounds_.reset();
             start_bounds_.reset();
         }
-        if (touched && mended_from_ && is_torn(coefficients_.chain, distance_arrays())) {
+        if (touched && may_give_way_ && is_torn(coefficients_.chain, distance_arrays())) {
             give_way_to_contacts();
             resolve_all_contacts(substep);
         }
@@ -198,7 +206,7 @@ private:
         const FamilyCoefficients& stretch = coefficients_.families[LKS_CONSTRAINT_STRETCH];
         const DistanceArrays arrays = distance_arrays();
         std::int64_t* const memory = scratch_.chain.data();
-        mended_from_ = false;
+        may_give_way_ = false;
         for (int mended = 0; mended < most_mendings &&
                              !solve_chain(coefficients_.chain, stretch, arrays, *world_.kernels, memory);
              ++mended) {
@@ -213,8 +221,9 @@ private:
 
     // Before it is mended, a rope that was torn when the substep began.
     void keep_torn() {
-        mended_from_ = candidate_count_ != 0 && is_torn(coefficients_.chain, start_arrays());
-        if (mended_from_) {
+        began_torn_ = is_torn(coefficients_.chain, start_arrays());
+        may_give_way_ = began_torn_ && candidate_count_ != 0;
+        if (began_torn_) {
             each_kept([](std::int64_t* values, std::int64_t* kept, std::uint32_t count) {
                 std::copy_n(values, count, kept);
             });
@@ -225,7 +234,7 @@ private:
     // inertia nor its pins, and to mend it in each substep anew would make speed of it without end. It is
     // swept instead, from where it was.
     void give_way_to_contacts() {
-        mended_from_ = false;
+        may_give_way_ = false;
         each_kept([](std::int64_t* values, const std::int64_t* kept, std::uint32_t count) {
             std::copy_n(kept, count, values);
         });
@@ -233,10 +242,43 @@ private:
         sweep_stretch();
     }
 
+    // Nobody leaves faster than they came, or than 4 m/s if that is more. What brings a rope together from
+    // anywhere is no motion, and would fling it about.
+    void limit_speeds_of_mending() {
+        const std::int64_t substeps = static_cast<std::int64_t>(world_.rate.substeps_per_second);
+        const std::int64_t least = 4 * coordinate_one / substeps;
+        const std::int64_t* const kept = kept_values();
+        const std::uint32_t count = object_.count();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            fixed::Vec3 came{};
+            std::int64_t* const begins[3] = {object_.start_axis(0), object_.start_axis(1),
+                                             object_.start_axis(2)};
+            const fixed::Vec3 now{object_.axis(0)[i], object_.axis(1)[i], object_.axis(2)[i]};
+            came.x = kept[i] - kept[count + i];
+            came.y = kept[2 * count + i] - kept[3 * count + i];
+            came.z = kept[4 * count + i] - kept[5 * count + i];
+            fixed::NormalisedVector before{};
+            fixed::NormalisedVector way{};
+            fixed::normalise(came, before);
+            const std::int64_t most = std::max(before.length, least);
+            if (fixed::normalise(now - fixed::Vec3{begins[0][i], begins[1][i], begins[2][i]}, way) &&
+                way.length > most) {
+                const fixed::Vec3 begin = now - fixed::scale(way.direction, most);
+                begins[0][i] = begin.x;
+                begins[1][i] = begin.y;
+                begins[2][i] = begin.z;
+            }
+        }
+    }
+
+    std::int64_t* kept_values() {
+        return scratch_.chain.data() + ChainWork::words(coefficients_.chain.count());
+    }
+
     // use(values, where they are kept, how many) for all of a rope that a solve and contacts change.
     template <typename Use>
     void each_kept(const Use& use) {
-        std::int64_t* kept = scratch_.chain.data() + ChainWork::words(coefficients_.chain.count());
+        std::int64_t* kept = kept_values();
         const std::uint32_t count = object_.count();
         for (int axis = 0; axis < 3; ++axis) {
             use(object_.axis(axis), kept, count);
@@ -415,7 +457,8 @@ private:
     std::optional<Bounds> start_bounds_, bounds_;
     std::optional<ParticleRows> rows_; // where constraints are swept in rows
     bool are_in_rows_ = false;         // the arrays are those of before
-    bool mended_from_ = false;         // where a torn rope was before it was mended is kept
+    bool began_torn_ = false;          // of a rope: where it was before it was mended is kept
+    bool may_give_way_ = false;        // it has been mended since
 };
 
 // How one object, or several side by side, move through one tick: all do each step before any does the next,
@@ -446,7 +489,10 @@ public:
                 ticks_[0]->sweep_batches();
                 each([&](ObjectTick& tick) { tick.resolve_all_contacts(substep); });
             }
-            each([](ObjectTick& tick) { tick.leave_rows(); });
+            each([](ObjectTick& tick) {
+                tick.leave_rows();
+                tick.end_substep();
+            });
         }
     }
 
