@@ -4,6 +4,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/gtx/quaternion.hpp>
 
 #include "golden/text.h"
 
@@ -70,6 +71,7 @@ public:
         for (const lks_demo::BodyLook& body : scene_.bodies()) {
             good = good && add_body(body);
         }
+        add_marks();
         frame_.legend.scene = scene_.info().name;
         frame_.legend.tick = "tick " + std::to_string(scene_.tick());
         frame_.legend.hash = lks_golden::hexadecimal(lks_world_hash(scene_.world()));
@@ -161,6 +163,27 @@ private:
             add_shape(shape, glm::make_mat4(matrix) * in_body, body.colour, body.marking);
         }
         return true;
+    }
+
+    // Flat discs, as near as a box of a few sides comes to one.
+    void add_marks() {
+        const lks_vec3 offset = scene_.offset();
+        const auto metres = [](lks_fixed value) { return static_cast<float>(lks_fixed_to_double(value)); };
+        for (const lks_demo::MarkLook& mark : scene_.marks()) {
+            const glm::vec3 point(metres(mark.point.x - offset.x), metres(mark.point.y - offset.y),
+                                  metres(mark.point.z - offset.z));
+            const glm::vec3 normal(metres(mark.normal.x), metres(mark.normal.y), metres(mark.normal.z));
+            const glm::mat4 matrix = glm::translate(glm::mat4(1.0f), point) *
+                                     glm::mat4_cast(glm::rotation(glm::vec3(0.0f, 1.0f, 0.0f), normal));
+            for (int side = 0; side < 3; ++side) {
+                render::Shape& shape = frame_.shapes.emplace_back();
+                shape.kind = render::ShapeKind::box;
+                shape.half_extents = {0.06f, 0.004f, 0.035f};
+                shape.matrix = glm::rotate(matrix, glm::radians(60.0f * static_cast<float>(side)),
+                                           glm::vec3(0.0f, 1.0f, 0.0f));
+                shape.colour = colour(scene_.mark_colour());
+            }
+        }
     }
 
     const lks_demo::Scene& scene_;

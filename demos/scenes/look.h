@@ -96,6 +96,12 @@ struct BoneLook {
     float joint_radius = 0.0f; // metres; of the ball that is drawn where it turns in its parent, 0: none
 };
 
+// A flat mark on what was hit.
+struct MarkLook {
+    lks_vec3 point{};
+    lks_vec3 normal{}; // of length one
+};
+
 // Relative to the scene's offset, metres.
 struct CameraLook {
     float eye[3] = {0.0f, 1.5f, 6.0f};

@@ -37,6 +37,7 @@ bool Scene::create(const SceneOptions& options, std::string& error) {
 
 bool Scene::step(std::string& error) {
     const bool good = accept(lks_world_step(world_)) && error_.empty();
+    see_events();
     if (!good) {
         error = error_;
     }
@@ -45,10 +46,24 @@ bool Scene::step(std::string& error) {
 
 bool Scene::advance(std::int64_t elapsed_ns, std::string& error) {
     const bool good = accept(lks_world_advance(world_, elapsed_ns, nullptr)) && error_.empty();
+    see_events();
     if (!good) {
         error = error_;
     }
     return good;
+}
+
+void Scene::see_events() {
+    const lks_event* const events = lks_world_events(world_);
+    for (std::uint32_t i = 0; most_marks_ != 0 && i < lks_world_event_count(world_); ++i) {
+        if (events[i].kind != LKS_EVENT_CONTACT_HIT) {
+            continue;
+        }
+        if (marks_.size() == most_marks_) {
+            marks_.erase(marks_.begin());
+        }
+        marks_.push_back({events[i].point, events[i].normal});
+    }
 }
 
 bool Scene::apply_inputs(lks_fixed) {

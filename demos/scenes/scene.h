@@ -67,6 +67,8 @@ public:
     const std::vector<ColliderLook>& colliders() const { return colliders_; }
     const std::vector<BodyLook>& bodies() const { return bodies_; }
     const CameraLook& camera() const { return camera_; }
+    const std::vector<MarkLook>& marks() const { return marks_; }
+    Rgb mark_colour() const { return mark_colour_; }
 
     // Called before each tick's inputs, also between two ticks of one advance: there the world is as the tick
     // before has left it.
@@ -94,6 +96,9 @@ protected:
     void look_as_mesh(const std::vector<double>& vertices, const ClothLook& look);
     void look_as_rope(double length, double radius, const RopeLook& look);
     bool pin(lks_object_id object, std::uint32_t vertex);
+    // Where contacts hit, from now on; the last so many stay. For the picture only: who loads an image loses
+    // them.
+    void leave_marks(std::size_t most, Rgb colour);
     // Inputs, and all else: notes the failure.
     bool accept(lks_result result);
 
@@ -105,6 +110,7 @@ protected:
 private:
     static void on_tick(void* user, lks_world* world, std::uint64_t tick);
     ObjectLook& look_of(ObjectKind kind);
+    void see_events();
     void look_as_body(const std::string& name, lks_body_id id, const lks_body_def& def, double scale,
                       Rgb colour);
     void look_as_joint(const lks_bone& bone, double scale, float radius);
@@ -116,6 +122,9 @@ private:
     std::vector<ObjectLook> objects_;
     std::vector<ColliderLook> colliders_;
     std::vector<BodyLook> bodies_;
+    std::vector<MarkLook> marks_;
+    std::size_t most_marks_ = 0;
+    Rgb mark_colour_;
     lks_error refusal_{}; // of a call that has no world to tell it
     std::string error_;
 };

@@ -193,6 +193,11 @@ void Scene::look_as_rope(double length, double radius, const RopeLook& look) {
     }
 }
 
+void Scene::leave_marks(std::size_t most, Rgb colour) {
+    most_marks_ = most;
+    mark_colour_ = colour;
+}
+
 bool Scene::pin(lks_object_id object, std::uint32_t vertex) {
     return accept(lks_object_pin(world_, object, vertex));
 }

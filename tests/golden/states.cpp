@@ -35,7 +35,7 @@ bool begins_with(const std::string& text, const std::string& start) {
 } // namespace
 
 TEST_CASE("golden states of bodies, joints and objects are read as they are written") {
-    for (const char* name : {"box_stack", "newtons_cradle", "ragdoll_cape", "spider"}) {
+    for (const char* name : {"box_stack", "crane", "newtons_cradle", "ragdoll_cape", "spider"}) {
         const lks_golden::GoldenState state = record(name, 20);
         const std::string text = lks_golden::to_text(state);
         lks_golden::GoldenState parsed;
