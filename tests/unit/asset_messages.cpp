@@ -71,6 +71,20 @@ TEST_CASE("a printed number read back is the authored one within half a unit of 
     CHECK(std::strtod(text(5e-324).c_str(), nullptr) == 5e-324);
 }
 
+TEST_CASE("small and large numbers are printed with a power of ten, others without") {
+    CHECK(text(1e-10) == "1e-10");
+    CHECK(text(-9e-9) == "-9e-9");
+    CHECK(text(1.23456789e-7) == "1.23456789e-7");
+    CHECK(text(0.00099999) == "0.00099999");
+    CHECK(text(0.0001) == "0.0001");
+    CHECK(text(0.000099) == "9.9e-5");
+    CHECK(text(123456789) == "123456789");
+    CHECK(text(100000000) == "100000000");
+    CHECK(text(2.5e10) == "2.5e10");
+    CHECK(text(1e9) == "1e9");
+    CHECK(text(999999999.9) == "1e9");
+}
+
 TEST_CASE("integers and World values are printed in full and a sentence is cut at its capacity") {
     Sentence sentence;
     (sentence << INT64_MIN << " " << UINT64_MAX << " " << std::int32_t{-7} << " ").hexadecimal(0xfedc);

@@ -5,7 +5,9 @@ namespace {
 
 using fixed::Scaled;
 
-constexpr int significant_digits = 9;
+// Of the first digit of what is written without a power of ten.
+constexpr int least_plain_exponent = -4;
+constexpr int greatest_plain_exponent = 8;
 constexpr std::uint64_t digits_limit = 1000000000; // 10^9
 
 // number = digits · 10^exponent with 10^8 ≤ digits < 10^9, rounded.
@@ -34,7 +36,7 @@ Decimal to_decimal(const Scaled& number) {
 }
 
 void write_plain(Sentence& sentence, std::uint64_t digits, int exponent) {
-    // A number between 1e-5 and 1e9, whose trailing zeros are gone.
+    // A number between 1e-4 and 1e9, whose trailing zeros are gone.
     std::uint64_t power = 1;
     for (int i = 0; i < -exponent; ++i) {
         power *= 10;
@@ -79,17 +81,19 @@ Sentence& operator<<(Sentence& sentence, const SignedScaled& exact) {
         sentence << "-";
     }
     Decimal decimal = to_decimal(exact.magnitude);
+    int behind_first = 8; // digits
     while (decimal.digits % 10 == 0) {
         decimal.digits /= 10;
         ++decimal.exponent;
+        --behind_first;
     }
-    const bool plain =
-        decimal.exponent >= -(significant_digits + 4) && decimal.exponent <= 0 + significant_digits - 1;
-    if (plain && decimal.digits < digits_limit && (decimal.exponent <= 0 || decimal.digits < 1000)) {
+    const int first = decimal.exponent + behind_first;
+    if (first >= least_plain_exponent && first <= greatest_plain_exponent) {
         write_plain(sentence, decimal.digits, decimal.exponent);
         return sentence;
     }
-    return sentence << decimal.digits << "e" << decimal.exponent;
+    write_plain(sentence, decimal.digits, -behind_first);
+    return sentence << "e" << first;
 }
 
 } // namespace lks
