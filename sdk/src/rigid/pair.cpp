@@ -223,10 +223,10 @@ void turn_body(Body& body, const Vec3& half_turn) {
         return;
     }
     // Of a large turn q += τ⊗q would need more than 64 bits.
-    const auto is_large = [](std::int64_t c) {
-        return static_cast<std::uint64_t>(c) + small_half_turn > 2 * std::uint64_t{small_half_turn};
+    const auto beyond = [](std::int64_t c) {
+        return static_cast<std::uint64_t>(c) + small_half_turn > 2 * std::uint64_t{small_half_turn} ? 1u : 0u;
     };
-    if (is_large(half_turn.x) | is_large(half_turn.y) | is_large(half_turn.z)) [[unlikely]] {
+    if ((beyond(half_turn.x) | beyond(half_turn.y) | beyond(half_turn.z)) != 0) [[unlikely]] {
         constexpr int coarser = 7;
         const Vec3 clamped = clamped_turn(half_turn);
         add_turn<half_turn_bits - coarser>(body.orientation,
