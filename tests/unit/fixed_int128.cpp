@@ -170,6 +170,12 @@ TEST_CASE("fixed: 128-bit quotients are the floor, for divisors of 64 and of 128
     Tally tally;
     for_wide_pairs(4, [&](UInt128 a, UInt128 b) {
         if (b.lo != 0) {
+            if (a.hi < b.lo) {
+                const Quotient64 narrow = divide_narrow(a.hi, a.lo, b.lo);
+                const Quotient64 digits = divide_by_digits(a.hi, a.lo, b.lo);
+                tally.expect(narrow.quotient == digits.quotient && narrow.remainder == digits.remainder, a.hi,
+                             a.lo, b.lo);
+            }
             const Quotient128 q = divide(a, b.lo);
             tally.expect(big(q.quotient) * big(b.lo) + big(q.remainder) == big(a) && q.remainder < b.lo, a.hi,
                          a.lo, b.lo);
