@@ -121,12 +121,6 @@ private:
     std::size_t length_;
 };
 
-// Room behind the work for what a torn rope is before it is mended: particles now and where the substep
-// began, and multipliers.
-inline std::size_t kept_words(const lks_asset& asset) {
-    return 6 * std::size_t{asset.vertex_count()} + asset.constraints.size();
-}
-
 // One iteration. `memory` has room for the work. False where a segment is torn, or the solve tore it: longer
 // than twice its rest length, or where it is soft more, and about to move too far.
 [[nodiscard]] bool solve_chain(const ChainCoefficients& chain, const FamilyCoefficients& family,

@@ -8,6 +8,7 @@
 #include "fixed/formats.h"
 #include "solver/chain.h"
 #include "solver/distance.h"
+#include "solver/kept_rope.h"
 #include "solver/local_frame.h"
 #include "solver/particle_rows.h"
 #include "solver/pins.h"
@@ -131,7 +132,7 @@ public:
 
     void end_substep() {
         if (began_torn_) {
-            limit_speeds_of_mending();
+            kept_rope().limit_speeds(world_.rate.substeps_per_second);
             began_torn_ = false;
         }
     }
@@ -224,9 +225,7 @@ private:
         began_torn_ = is_torn(coefficients_.chain, start_arrays());
         may_give_way_ = began_torn_ && candidate_count_ != 0;
         if (began_torn_) {
-            each_kept([](std::int64_t* values, std::int64_t* kept, std::uint32_t count) {
-                std::copy_n(values, count, kept);
-            });
+            kept_rope().keep();
         }
     }
 
@@ -235,57 +234,13 @@ private:
     // swept instead, from where it was.
     void give_way_to_contacts() {
         may_give_way_ = false;
-        each_kept([](std::int64_t* values, const std::int64_t* kept, std::uint32_t count) {
-            std::copy_n(kept, count, values);
-        });
+        kept_rope().put_back();
         sweep_stretch();
         sweep_stretch();
     }
 
-    // Nobody leaves faster than they came, or than 4 m/s if that is more. What brings a rope together from
-    // anywhere is no motion, and would fling it about.
-    void limit_speeds_of_mending() {
-        const std::int64_t substeps = static_cast<std::int64_t>(world_.rate.substeps_per_second);
-        const std::int64_t least = 4 * coordinate_one / substeps;
-        const std::int64_t* const kept = kept_values();
-        const std::uint32_t count = object_.count();
-        for (std::uint32_t i = 0; i < count; ++i) {
-            fixed::Vec3 came{};
-            std::int64_t* const begins[3] = {object_.start_axis(0), object_.start_axis(1),
-                                             object_.start_axis(2)};
-            const fixed::Vec3 now{object_.axis(0)[i], object_.axis(1)[i], object_.axis(2)[i]};
-            came.x = kept[i] - kept[count + i];
-            came.y = kept[2 * count + i] - kept[3 * count + i];
-            came.z = kept[4 * count + i] - kept[5 * count + i];
-            fixed::NormalisedVector before{};
-            fixed::NormalisedVector way{};
-            fixed::normalise(came, before);
-            const std::int64_t most = std::max(before.length, least);
-            if (fixed::normalise(now - fixed::Vec3{begins[0][i], begins[1][i], begins[2][i]}, way) &&
-                way.length > most) {
-                const fixed::Vec3 begin = now - fixed::scale(way.direction, most);
-                begins[0][i] = begin.x;
-                begins[1][i] = begin.y;
-                begins[2][i] = begin.z;
-            }
-        }
-    }
-
-    std::int64_t* kept_values() {
-        return scratch_.chain.data() + ChainWork::words(coefficients_.chain.count());
-    }
-
-    // use(values, where they are kept, how many) for all of a rope that a solve and contacts change.
-    template <typename Use>
-    void each_kept(const Use& use) {
-        std::int64_t* kept = kept_values();
-        const std::uint32_t count = object_.count();
-        for (int axis = 0; axis < 3; ++axis) {
-            use(object_.axis(axis), kept, count);
-            use(object_.start_axis(axis), kept + count, count);
-            kept += 2 * std::size_t{count};
-        }
-        use(object_.multipliers.data(), kept, static_cast<std::uint32_t>(object_.multipliers.size()));
+    KeptRope kept_rope() {
+        return {object_, scratch_.chain.data() + ChainWork::words(coefficients_.chain.count())};
     }
 
     // Its multipliers are the direct solve's alone.

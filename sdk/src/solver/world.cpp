@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "solver/kept_rope.h"
 #include "solver/particle_rows.h"
 
 using lks::Coefficients;
