@@ -20,9 +20,9 @@ public:
     using Contact = BodyContact<Scalar>;
     using Move = BodyMove<Scalar>;
 
-    // least_motion: metres of a substep, below which nothing is gained.
-    CarriedPushes(RigidParts<Scalar>& parts, Scalar least_motion)
-        : parts_(parts), least_motion_(least_motion) {}
+    // rate: substeps a second. least_motion: metres of a substep, below which nothing is gained.
+    CarriedPushes(RigidParts<Scalar>& parts, Scalar rate, Scalar least_motion)
+        : parts_(parts), rate_(rate), least_motion_(least_motion) {}
 
     // What a held tree begins its next solve with.
     static void carry_torque(Body& a, Body& b, const Vec& push) {
@@ -91,6 +91,14 @@ private:
                  turned_mass.dot(turn_since(body, body.start_orientation));
             q += mass * pushed.dot(pushed) + turned_mass.dot(turned);
         }
+        // What a kinematic body pushes counts beside its own motion.
+        void move_with(const Body& holder, const Body& body, Scalar rate, const Move& by_push) {
+            const Vec lever = body.start_position - holder.start_position;
+            const Vec shift = (holder.velocity + cross(holder.spin, lever)) * (1 / rate);
+            const Vec turn = body.rotation.back(holder.spin * (1 / rate));
+            g -= body.mass * by_push.shift.dot(shift) +
+                 (body.inertia * body.rotation.back(by_push.angle)).dot(turn);
+        }
         // Of an attachment, which begins each substep from nothing.
         void add_expected(const Body& body, const Vec& pushed, const Vec& turned, const Move& expected) {
             g += body.mass * pushed.dot(expected.shift) +
@@ -125,6 +133,19 @@ private:
                 heaviest = std::max(heaviest, body.mass);
             }
         }
+        for (const Contact& contact : parts_.contacts) {
+            if (!parts_.belongs_to(contact, figure) || parts_.is_shared(contact)) {
+                continue;
+            }
+            const bool pushes_a = parts_.bodies[contact.a].moves;
+            const Body& body = parts_.bodies[pushes_a ? contact.a : contact.b];
+            const Body& holder = parts_.bodies[pushes_a ? contact.b : contact.a];
+            if (!holder.moves) {
+                Move by_push;
+                contact.add_pushes(pushes_a, by_push);
+                energies.move_with(holder, body, rate_, by_push);
+            }
+        }
         // What the contacts with other figures do to these. None counts as heavier than the figure's own.
         // Those of the same two bodies stand together.
         Move move;
@@ -152,6 +173,7 @@ private:
     }
 
     RigidParts<Scalar>& parts_;
+    Scalar rate_;
     Scalar least_motion_;
 };
 

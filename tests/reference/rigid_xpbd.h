@@ -41,7 +41,7 @@ public:
         : settings_(settings), rate_(static_cast<Scalar>(settings.tick_rate_hz * settings.substeps)),
           motion_(Vec(settings.gravity), rate_, settings.substeps), search_(model),
           body_count_(model.bodies.size()), least_approach_(least_approach(settings)),
-          slow_slip_(slow_slip(settings)), carried_(parts_, 2 * least_approach_ / rate_) {
+          slow_slip_(slow_slip(settings)), carried_(parts_, rate_, 2 * least_approach_ / rate_) {
         for (const RigidBody& from : model.bodies) {
             bodies_.emplace_back(from);
         }

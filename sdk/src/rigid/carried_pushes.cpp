@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collide/saturation.h"
+#include "rigid/body_motion.h"
 #include "rigid/contact_search.h"
 #include "rigid/figures.h"
 #include "rigid/held_tree.h"
@@ -32,6 +34,19 @@ Motion motion_of_move(const Body& body, const Move& move) {
                            half_turn_fraction_bits)};
 }
 
+// How what is kinematic would move a body in this substep if it held it.
+Motion motion_with(const Body& holder, const Body& body, const MotionRate& rate) {
+    constexpr int bits = 52;
+    constexpr int down = turn_fraction_bits - bits;
+    const std::int64_t n = rate.substeps_per_second;
+    const Vec3 velocity =
+        velocity_at(holder, saturating_subtract(body.start_position, holder.start_position));
+    const Vec3 half_turn = to_half_turn(holder.angular_velocity, rate);
+    const Vec3 turn{half_turn.x >> down, half_turn.y >> down, half_turn.z >> down};
+    return {to_motion({velocity.x / n, velocity.y / n, velocity.z / n}),
+            to_turn_motion(body, fixed::rotate_transposed(body.rotation, turn), bits)};
+}
+
 // How much of the pushes is to be added, 30 fraction bits: −G/Q.
 std::int32_t missing_share(const Int128& g, const Int128& q) {
     const UInt128 size = fixed::abs(g);
@@ -54,9 +69,11 @@ class Figure {
 public:
     Figure(RigidScene& scene, const FigureRange& range) : scene_(scene), range_(range) {}
 
-    std::int32_t share_to_add(std::int64_t least_motion) {
+    std::int32_t share_to_add(const MotionRate& rate, std::int64_t least_motion) {
         for_each(Part::body, [this](std::uint32_t i) { add_body(i); });
         add_neighbours();
+        for_each_acting(scene_, range_, Part::contact,
+                        [&](std::uint32_t i) { move_with_holder(scene_.contacts[i], rate); });
         for_each(Part::attachment, [this](std::uint32_t i) { add_attachment(scene_.attachments[i]); });
         if (q_ == Int128{0, 0}) {
             return 0;
@@ -142,6 +159,23 @@ private:
         add_products(index, mass, motion_by_pushes(body), scene_.substep_motions[index]);
     }
 
+    // What a kinematic body, or a collider, pushes counts in its frame.
+    void move_with_holder(const Contact& contact, const MotionRate& rate) {
+        const ContactKey& key = contact.key;
+        const Body& other = other_body(scene_, key.other);
+        const bool pushes_a = scene_.bodies[key.body_a].is_awake();
+        const Body& holder = pushes_a ? other : scene_.bodies[key.body_a];
+        if (holder.is_dynamic() || !holder.is_moving()) {
+            return;
+        }
+        const std::uint32_t index = pushes_a ? key.body_a : key.other;
+        const Body& body = scene_.bodies[index];
+        const Motion by_push = motion_of_move(body, pushes_a ? contact.carried_a : contact.carried_b);
+        g_ = g_ - fixed::multiply_signed(product(scene_.descriptions[index].properties.inertia, by_push,
+                                                 motion_with(holder, body, rate)),
+                                         scene_.figure_masses[index]);
+    }
+
     // What the contacts with other figures do to these; those of the same two bodies stand together.
     void add_neighbours() {
         Move move;
@@ -206,7 +240,7 @@ void measure_motions(RigidScene& scene, const FigureRange& range) {
 
 std::int32_t share_to_add(RigidScene& scene, const FigureRange& range, const MotionRate& rate,
                           std::int64_t least_speed) {
-    return is_pushed(range) ? Figure(scene, range).share_to_add(least_motion_of(rate, least_speed)) : 0;
+    return is_pushed(range) ? Figure(scene, range).share_to_add(rate, least_motion_of(rate, least_speed)) : 0;
 }
 
 bool scale_carried_pushes(RigidScene& scene, const MotionRate& rate, std::int64_t least_speed) {

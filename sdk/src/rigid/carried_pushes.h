@@ -10,8 +10,10 @@
 //     G = Σ m·Δ·v    Q = Σ m·Δ·Δ    factor = 1 − G/Q, from 0 to 2
 //
 // with Δ what these pushes do to each body, and v how it moves now (both in six dimensions, m the mass
-// matrix). This is the coarse level of a two-level method whose fine level are the sweeps. Where next to
-// nothing is to be gained the pushes stay as they are, so that what rests stays as it is, to the bit.
+// matrix); for what a kinematic body or a collider pushes, v is the motion beside it: on a lift that rises at
+// a constant speed things lie as on the ground. This is the coarse level of a two-level method whose fine
+// level are the sweeps. Where next to nothing is to be gained the pushes stay as they are, so that what rests
+// stays as it is, to the bit.
 #pragma once
 
 #include "rigid/rigid_scene.h"
