@@ -129,7 +129,7 @@ private:
         const Vec way = (body_b.velocity - body_a.velocity) * (1 / tick_rate);
         contact.every_substep = fast || passed ||
                                 std::any_of(manifold.points.begin(), manifold.points.end(), sticks) ||
-                                (!contact.jointed && normal_turns(piece_a, piece_b, manifold.normal, way));
+                                (!contact.jointed && normal_turns(piece_a, piece_b, manifold, way));
         contact.take_manifold(manifold, body_a, body_b, old);
         if (passed) {
             find_points(contact, bodies, substep_rate, side);
@@ -140,10 +140,22 @@ private:
     static bool is_round(const Piece<Scalar>& piece) {
         return piece.kind == LKS_SHAPE_SPHERE || piece.kind == LKS_SHAPE_CAPSULE;
     }
-    // By more than a 64th in this tick.
-    static bool normal_turns(const Piece<Scalar>& a, const Piece<Scalar>& b, const Vec& normal,
+    // Of round surfaces by more than a 64th in this tick, of what is about to meet a box by more than a 16th.
+    template <typename Found>
+    static bool normal_turns(const Piece<Scalar>& a, const Piece<Scalar>& b, const Found& manifold,
                              const Vec& way) {
-        return is_round(a) && is_round(b) && sum(way - normal * normal.dot(way)) > (a.radius + b.radius) / 64;
+        if (b.kind == LKS_SHAPE_PLANE) {
+            return false;
+        }
+        const Scalar aside = sum(way - manifold.normal * manifold.normal.dot(way));
+        if (is_round(a) && is_round(b)) {
+            return aside > (a.radius + b.radius) / 64;
+        }
+        Scalar gap = std::numeric_limits<Scalar>::max();
+        for (const auto& point : manifold.points) {
+            gap = std::min(gap, point.separation);
+        }
+        return !manifold.points.empty() && gap > Scalar(0.001) && aside > (a.radius + b.radius + gap) / 16;
     }
 
     void find_points(Contact& contact, const std::vector<Body>& bodies, Scalar substep_rate,

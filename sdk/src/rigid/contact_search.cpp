@@ -429,14 +429,23 @@ private:
     static bool is_round(const Piece& piece) {
         return piece.kind == LKS_SHAPE_SPHERE || piece.kind == LKS_SHAPE_CAPSULE;
     }
-    // Whether the way that round surfaces push each other turns by more than a 64th in this tick. Balls
-    // that pass each other off centre would part as if they had met where the tick began: 5° astray at 5 m/s.
+    // Whether the way that they push each other turns in this tick: of round surfaces by more than a 64th.
+    // Balls that pass each other off centre would part as if they had met where the tick began: 5° astray at
+    // 5 m/s. Of what is about to meet a box by more than a 16th: its edge would be a wall that goes on.
     static bool normal_turns(const Piece& a, const Piece& b, const Manifold& manifold, const Vec3& way) {
-        if (!is_round(a) || !is_round(b)) {
+        if (b.kind == LKS_SHAPE_PLANE) {
             return false;
         }
         const Vec3 aside = way - fixed::scale(manifold.normal, fixed::dot(manifold.normal, way));
-        return sum_of_magnitudes(aside) > (a.radius + b.radius) / 64;
+        if (is_round(a) && is_round(b)) {
+            return sum_of_magnitudes(aside) > (a.radius + b.radius) / 64;
+        }
+        std::int64_t gap = INT64_MAX;
+        for (std::uint32_t i = 0; i < manifold.count; ++i) {
+            gap = std::min(gap, manifold.points[i].separation);
+        }
+        return manifold.count != 0 && gap > touching_distance &&
+               sum_of_magnitudes(aside) > (a.radius + b.radius + gap) / 16;
     }
 
     // `way`: of b against a in this tick, `spins`: how far they turn each other's points at most.
