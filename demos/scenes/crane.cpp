@@ -55,16 +55,6 @@ private:
                    lks_world_record_events(world(), LKS_EVENT_BIT(LKS_EVENT_CONTACT_HIT), least_impulse, 64));
     }
 
-    bool add_block(const lks_vec3& position, const lks_vec3& half_extents, Rgb colour) {
-        lks_collider_def def = lks_default_collider_def();
-        def.shape = LKS_SHAPE_BOX;
-        def.half_extents = half_extents;
-        def.transform.position = position;
-        ColliderLook look;
-        look.colour = colour;
-        return add_collider(def, look);
-    }
-
     bool add_gantry() {
         const Rgb wood = rgb(0x6e5a48);
         for (const std::int64_t side : {-1, 1}) {

@@ -28,23 +28,14 @@ private:
     }
 
     bool add_beam() {
+        const Rgb wood = rgb(0x6e5a48);
+        const std::int64_t half_post = beam_height / 2 + 60;
         bool good = true;
         for (const std::int64_t side : {-1, 1}) {
-            lks_collider_def post = lks_default_collider_def();
-            post.shape = LKS_SHAPE_BOX;
-            post.half_extents = millimetres(60, beam_height / 2 + 60, 60);
-            post.transform.position = millimetres(side * 1350, beam_height / 2 + 60, 0);
-            ColliderLook look;
-            look.colour = rgb(0x6e5a48);
-            good = good && add_collider(post, look);
+            good = good &&
+                   add_block(millimetres(side * 1350, half_post, 0), millimetres(60, half_post, 60), wood);
         }
-        lks_collider_def beam = lks_default_collider_def();
-        beam.shape = LKS_SHAPE_BOX;
-        beam.half_extents = millimetres(1500, 60, 80);
-        beam.transform.position = millimetres(0, beam_height + 90, 0);
-        ColliderLook look;
-        look.colour = rgb(0x6e5a48);
-        return good && add_collider(beam, look);
+        return good && add_block(millimetres(0, beam_height + 90, 0), millimetres(1500, 60, 80), wood);
     }
 
     // Arms out to the sides, and a push: it swings before the ropes are taut.

@@ -22,13 +22,7 @@ private:
     }
 
     bool add_wall(std::int64_t x, std::int64_t z, std::int64_t half_x, std::int64_t half_z) {
-        lks_collider_def def = lks_default_collider_def();
-        def.shape = LKS_SHAPE_BOX;
-        def.half_extents = millimetres(half_x, 450, half_z);
-        def.transform.position = millimetres(x, 450, z);
-        ColliderLook look;
-        look.colour = rgb(0x8d8478);
-        return add_collider(def, look);
+        return add_block(millimetres(x, 450, z), millimetres(half_x, 450, half_z), rgb(0x8d8478));
     }
 
     bool add_walls() {

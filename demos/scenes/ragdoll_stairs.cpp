@@ -23,13 +23,7 @@ private:
     }
 
     bool add_step(std::int64_t x, std::int64_t half_x, std::int64_t top) {
-        lks_collider_def def = lks_default_collider_def();
-        def.shape = LKS_SHAPE_BOX;
-        def.half_extents = millimetres(half_x, top / 2, 1200);
-        def.transform.position = millimetres(x, top / 2, 0);
-        ColliderLook look;
-        look.colour = rgb(0x8d8478);
-        return add_collider(def, look);
+        return add_block(millimetres(x, top / 2, 0), millimetres(half_x, top / 2, 1200), rgb(0x8d8478));
     }
 
     bool add_stairs() {

@@ -83,6 +83,7 @@ protected:
 
     // Parts of a scene; places are without the offset. False: refused, and error_ says why.
     bool add_ground(Rgb colour);
+    bool add_block(const lks_vec3& position, const lks_vec3& half_extents, Rgb colour); // a box collider
     bool add_collider(lks_collider_def def, const ColliderLook& look, lks_collider_id* id = nullptr);
     bool add_body(const std::string& name, lks_body_def def, Rgb colour, lks_body_id* id = nullptr);
     // Places are those of `def`; a look for each bone. `ids` has room for them, or is null.

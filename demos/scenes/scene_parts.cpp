@@ -18,6 +18,16 @@ bool Scene::add_ground(Rgb colour) {
     return add_collider(def, look);
 }
 
+bool Scene::add_block(const lks_vec3& position, const lks_vec3& half_extents, Rgb colour) {
+    lks_collider_def def = lks_default_collider_def();
+    def.shape = LKS_SHAPE_BOX;
+    def.half_extents = half_extents;
+    def.transform.position = position;
+    ColliderLook look;
+    look.colour = colour;
+    return add_collider(def, look);
+}
+
 bool Scene::add_collider(lks_collider_def def, const ColliderLook& look, lks_collider_id* id) {
     def.transform.position = place(def.transform.position);
     ColliderLook added = look;
