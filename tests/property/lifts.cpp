@@ -17,9 +17,7 @@ lks_collider_id add_platform(World& world) {
     def.shape = LKS_SHAPE_BOX;
     def.half_extents = fixed(4, 0.1, 4);
     def.transform.position = fixed(0, -0.1, 0);
-    lks_collider_id id{};
-    REQUIRE(lks_world_add_collider(world, &def, &id) == LKS_OK);
-    return id;
+    return world.add(def);
 }
 
 // So many ticks at a speed, from where it is; its top is at `height` then.
@@ -55,18 +53,11 @@ TEST_CASE("a stack on a lift that goes up or down stands as on the ground") {
             const lks_collider_id platform = add_platform(world);
             std::vector<lks_body_id> boxes;
             for (int i = 0; i < 5; ++i) {
-                lks_body_shape shape = lks_default_body_shape();
-                shape.shape = LKS_SHAPE_BOX;
-                shape.half_extents = fixed(0.25, 0.25, 0.25);
                 lks_body_def def = lks_default_body_def();
-                def.shapes = &shape;
-                def.shape_count = 1;
                 def.never_sleeps = 1;
-                def.transform.position = fixed(0, 0.25 + 0.5 * i, 0);
                 def.velocity = fixed(0, speed, 0);
-                lks_body_id body{};
-                REQUIRE(lks_world_add_body(world, &def, &body) == LKS_OK);
-                boxes.push_back(body);
+                boxes.push_back(
+                    add_body(world, box_shape(0.25, 0.25, 0.25), fixed(0, 0.25 + 0.5 * i, 0), def));
             }
             double height = 0;
             ride(world, platform, speed, 600, height);
@@ -89,7 +80,7 @@ TEST_CASE("a ragdoll that lies on a lift stays there") {
         const lks_collider_id platform = add_platform(world);
         Humanoid humanoid;
         humanoid.def.transform.position = fixed(0, 0.3, -0.8);
-        REQUIRE(lks_rotation_from_axis_angle(1, 0, 0, 90, &humanoid.def.transform.rotation) == LKS_OK);
+        humanoid.def.transform.rotation = about(1, 0, 0, 90);
         std::vector<lks_body_id> bones(LKS_HUMANOID_BONES);
         REQUIRE(humanoid.add(world, bones.data()) == LKS_OK);
         double height = 0;
