@@ -352,8 +352,8 @@ void solve_articulation(RigidScene& scene, const ArticulatedTree& tree) {
 std::int64_t response_of(RigidScene& scene, const ArticulatedTree& tree, std::uint32_t body,
                          const Vec3& point, const Direction& along) {
     Tree all(scene, tree);
-    constexpr std::int64_t unit = std::int64_t{1} << (world_fraction_bits - direction_fraction_bits);
-    all.bear(body, point, {along.x * unit, along.y * unit, along.z * unit});
+    all.bear(body, point,
+             {world_from_direction(along.x), world_from_direction(along.y), world_from_direction(along.z)});
     return fixed::dot(along, all.borne_motion(body, point));
 }
 
