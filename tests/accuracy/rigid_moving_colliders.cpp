@@ -65,7 +65,7 @@ TEST_CASE("a ball that is hit by a swinging paddle is within 1e-6 m after a seco
             s.lead_collider(1, place(fixed(0.5 * std::sin(angle), 0.7 - 0.5 * std::cos(angle), 0),
                                      about(0, 0, 1, angle * 180 / std::acos(-1.0))));
         };
-        check_run("ball hit by a paddle" + substeps_name(substeps), scene, {1e-6, 1e-5, 50},
+        check_run("ball hit by a paddle" + substeps_name(substeps), scene, {1e-6, 1e-5, 40},
                   {7e-6, 7e-5, 200}, swing);
     }
 }

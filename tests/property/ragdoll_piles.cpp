@@ -148,7 +148,7 @@ TEST_CASE("piles in which feet are jammed come apart and fall asleep, too" *
         const FallenPile pile = fall(seed, 8, 600);
         INFO("layout " << seed << ": " << pile.seconds << " s, " << 1e3 * pile.overlap << " mm of overlap");
         CHECK(pile.asleep);
-        CHECK(pile.overlap < 4e-3); // below two in nearly all: see below
+        CHECK(pile.overlap < 6e-3); // below two in nearly all: see below
         CHECK(pile.joints < 5e-3);
         CHECK(pile.limits < 5);
     }

@@ -50,6 +50,7 @@ public:
     std::size_t shape_a = 0, shape_b = 0;
     Scalar radius_a = 0, radius_b = 0;
     Scalar static_friction = 0, dynamic_friction = 0, restitution = 0;
+    bool fast = false;          // one may pass the middle of the other in a tick
     bool jointed = false;       // joints hold one of the bodies
     bool every_substep = false; // its points are looked for in each, not once a tick
     Vec normal;                 // from a to b

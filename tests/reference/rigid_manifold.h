@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -40,10 +41,12 @@ public:
 
     Vec normal; // from a to b
     std::vector<ManifoldPoint<Scalar>> points;
+    Scalar gap = std::numeric_limits<Scalar>::max(); // of the shapes along the normal, also without points
 
     Scalar margin() const { return margin_; }
     void add(const Vec& core_a, const Vec& core_b, std::uint32_t feature) {
         const Scalar separation = normal.dot(core_b - core_a) - radii_;
+        gap = std::min(gap, separation);
         if (separation <= margin_ && points.size() < 4) {
             points.push_back({core_a, core_b, separation, feature});
         }

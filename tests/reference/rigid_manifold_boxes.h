@@ -93,15 +93,19 @@ public:
 
     void touch() {
         find_face();
-        out_.normal = face_.normal;
-        if (face_.separation > out_.margin() || !find_edges()) {
-            return;
+        if (face_.separation <= out_.margin()) {
+            find_edges();
         }
-        if (edge_a_ < 0) {
-            touch_face();
-        } else {
-            touch_edges();
+        const Separation& best = edge_a_ < 0 ? face_ : edge_;
+        out_.normal = best.normal;
+        if (face_.separation <= out_.margin()) {
+            if (edge_a_ < 0) {
+                touch_face();
+            } else {
+                touch_edges();
+            }
         }
+        out_.gap = best.separation;
     }
 
 private:
@@ -139,8 +143,8 @@ private:
         }
     }
 
-    // False: they are apart.
-    bool find_edges() {
+    // As far as one that keeps them apart.
+    void find_edges() {
         Scalar best = face_.separation + 4 * tolerance;
         for (int i = 0; i < 3; ++i) {
             for (int j = 0; j < 3; ++j) {
@@ -150,18 +154,17 @@ private:
                     continue; // meet as faces do
                 }
                 const Separation found = along(way * (1 / sine));
-                if (found.separation > out_.margin()) {
-                    return false;
-                }
                 if (found.separation > best) {
                     best = found.separation;
                     edge_a_ = i;
                     edge_b_ = j;
-                    edge_normal_ = found.normal;
+                    edge_ = found;
+                }
+                if (found.separation > out_.margin()) {
+                    return;
                 }
             }
         }
-        return true;
     }
 
     void touch_face() {
@@ -212,7 +215,6 @@ private:
     }
 
     void touch_edges() {
-        out_.normal = edge_normal_;
         const Vec u = a_.axes.column(edge_a_);
         const Vec v = b_.axes.column(edge_b_);
         const Vec p = supporting_edge(a_, edge_a_, out_.normal);
@@ -235,7 +237,7 @@ private:
     int best_face_ = 0;
     Separation face_;
     int edge_a_ = -1, edge_b_ = -1;
-    Vec edge_normal_;
+    Separation edge_;
 };
 
 } // namespace reference

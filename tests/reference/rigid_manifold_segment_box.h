@@ -70,12 +70,12 @@ private:
     // By one of the box's faces.
     bool is_apart() {
         for (int i = 0; i < 3; ++i) {
-            const Scalar reach =
-                std::abs(component(direction_, i)) * half_ + extent(i) + segment_.radius + out_.margin();
+            const Scalar reach = std::abs(component(direction_, i)) * half_ + extent(i) + segment_.radius;
+            const Scalar gap = std::abs(component(centre_, i)) - reach;
             const Face face{i, component(centre_, i) < 0 ? Scalar(-1) : Scalar(1)};
-            if (std::abs(component(centre_, i)) - reach > Scalar(1e-6) &&
-                !is_against(face.outward(), side_)) {
+            if (gap - out_.margin() > Scalar(1e-6) && !is_against(face.outward(), side_)) {
                 set_normal(face.outward());
+                out_.gap = gap;
                 return true;
             }
         }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "reference/rigid_contact.h"
-#include "reference/rigid_touch.h"
+#include "reference/rigid_meeting.h"
 
 namespace reference {
 
@@ -86,6 +86,11 @@ private:
     // Two figures part the shorter way.
     static bool keeps_side(const Body& a, const Body& b) { return !a.jointed || !b.jointed; }
 
+    // Whether what they do on their way counts: joints turn the ways of two bones, and draw what is fast.
+    static bool follows_way(const Body& a, const Body& b, bool fast) {
+        return fast ? !a.jointed && !b.jointed : keeps_side(a, b);
+    }
+
     // False: not in this tick.
     bool touches(Contact& contact, const std::vector<Body>& bodies, Scalar tick_rate, Scalar substep_rate,
                  const Contact* before) const {
@@ -99,12 +104,15 @@ private:
         const bool keeps = keeps_side(body_a, body_b);
         // Where they may be turned to by what they hit on their way.
         const Scalar aside = keeps ? (motion - turning) / 4 : 0;
-        if (pass_by(piece_a, piece_b, (body_b.velocity - body_a.velocity) * (1 / tick_rate),
-                    turning + aside)) {
+        const Vec way = (body_b.velocity - body_a.velocity) * (1 / tick_rate);
+        if (pass_by(piece_a, piece_b, way, turning + aside)) {
             return false;
         }
-        Manifold<Scalar> manifold = touch(piece_a, piece_b, motion + near, {});
         const bool fast = motion > thickness(piece_a) + thickness(piece_b);
+        Manifold<Scalar> manifold =
+            Meeting<Scalar>(piece_a, piece_b, follows_way(body_a, body_b, fast) ? way : Vec{}, motion + near,
+                            {})
+                .found();
         // Boxes beside each other show no points, and may yet meet at their edges.
         const bool unclear = fast && manifold.points.empty();
         // Of the motion only what closes the gap counts.
@@ -116,6 +124,7 @@ private:
         if (manifold.points.empty() && !unclear) {
             return false;
         }
+        contact.fast = fast;
         contact.jointed = body_a.jointed || body_b.jointed;
         contact.radius_a = piece_a.radius;
         contact.radius_b = piece_b.radius;
@@ -126,10 +135,9 @@ private:
         const auto sticks = [](const ManifoldPoint<Scalar>& point) {
             return point.separation < -Contact::sticking_depth;
         };
-        const Vec way = (body_b.velocity - body_a.velocity) * (1 / tick_rate);
         contact.every_substep = fast || passed ||
                                 std::any_of(manifold.points.begin(), manifold.points.end(), sticks) ||
-                                (!contact.jointed && normal_turns(piece_a, piece_b, manifold, way));
+                                (keeps && normal_turns(piece_a, piece_b, manifold, way, contact.jointed));
         contact.take_manifold(manifold, body_a, body_b, old);
         if (passed) {
             find_points(contact, bodies, substep_rate, side);
@@ -140,16 +148,17 @@ private:
     static bool is_round(const Piece<Scalar>& piece) {
         return piece.kind == LKS_SHAPE_SPHERE || piece.kind == LKS_SHAPE_CAPSULE;
     }
-    // Of round surfaces by more than a 64th in this tick, of what is about to meet a box by more than a 16th.
+    // Of round surfaces by more than a 64th in this tick unless joints hold them, of what is about to meet a
+    // box by more than a 16th.
     template <typename Found>
     static bool normal_turns(const Piece<Scalar>& a, const Piece<Scalar>& b, const Found& manifold,
-                             const Vec& way) {
+                             const Vec& way, bool jointed) {
         if (b.kind == LKS_SHAPE_PLANE) {
             return false;
         }
         const Scalar aside = sum(way - manifold.normal * manifold.normal.dot(way));
         if (is_round(a) && is_round(b)) {
-            return aside > (a.radius + b.radius) / 64;
+            return !jointed && aside > (a.radius + b.radius) / 64;
         }
         Scalar gap = std::numeric_limits<Scalar>::max();
         for (const auto& point : manifold.points) {
@@ -171,9 +180,11 @@ private:
         Manifold<Scalar> manifold(margin, 0);
         manifold.normal = contact.normal;
         const Scalar aside = keeps_side(a, b) ? sum(b.velocity - a.velocity) / 4 : 0;
-        if (!pass_by(piece_a, piece_b, (b.velocity - a.velocity) * (1 / substep_rate),
-                     (turning + aside) / substep_rate)) {
-            manifold = touch(piece_a, piece_b, margin, keeps_side(a, b) ? side : Vec{});
+        const Vec way = (b.velocity - a.velocity) * (1 / substep_rate);
+        if (!pass_by(piece_a, piece_b, way, (turning + aside) / substep_rate)) {
+            manifold = Meeting<Scalar>(piece_a, piece_b, follows_way(a, b, contact.fast) ? way : Vec{},
+                                       margin, keeps_side(a, b) ? side : Vec{})
+                           .found();
         }
         contact.take_manifold(manifold, a, b, std::vector<Point>(contact.points));
     }
@@ -233,13 +244,6 @@ private:
         };
         return outside(between.x, way.x, room.x) || outside(between.y, way.y, room.y) ||
                outside(between.z, way.z, room.z);
-    }
-
-    static Scalar thickness(const Piece<Scalar>& piece) {
-        const Vec& e = piece.half_extents;
-        return piece.kind == LKS_SHAPE_PLANE ? std::numeric_limits<Scalar>::max()
-               : piece.kind == LKS_SHAPE_BOX ? std::min({e.x, e.y, e.z})
-                                             : piece.radius;
     }
 
     static Scalar sum(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }

@@ -6,7 +6,8 @@
 #include <cstdio>
 
 #include "collide/manifold.h"
-#include "reference/rigid_touch.h"
+#include "reference/rigid_meeting.h"
+#include "rigid/meeting.h"
 #include "support/numbers.h"
 
 using namespace support;
@@ -82,11 +83,7 @@ reference::Piece<Scalar> same_piece(const lks::Piece& from) {
 
 // Of the normals and the points from the reference's; infinite where the points are others.
 template <typename Scalar>
-double distance_of(const lks::Manifold& fixed_point, const lks::Piece& a, const lks::Piece& b,
-                   std::int64_t margin, const lks::fixed::Direction& side) {
-    const reference::Manifold<Scalar> expected =
-        reference::touch(same_piece<Scalar>(a), same_piece<Scalar>(b), static_cast<Scalar>(metres(margin)),
-                         reference::Vector3<Scalar>(units_of(side)));
+double distance_of(const lks::Manifold& fixed_point, const reference::Manifold<Scalar>& expected) {
     double off = expected.points.size() == fixed_point.count ? 0 : INFINITY;
     if (fixed_point.count != 0) {
         off = std::max(off, (units_of(fixed_point.normal) - expected.normal.widened()).length());
@@ -100,6 +97,36 @@ double distance_of(const lks::Manifold& fixed_point, const lks::Piece& a, const 
                         p.feature == q.feature ? 0.0 : double{INFINITY}});
     }
     return off;
+}
+
+template <typename Scalar>
+double distance_of(const lks::Manifold& fixed_point, const lks::Piece& a, const lks::Piece& b,
+                   std::int64_t margin, const lks::fixed::Direction& side) {
+    return distance_of(fixed_point, reference::touch(same_piece<Scalar>(a), same_piece<Scalar>(b),
+                                                     static_cast<Scalar>(metres(margin)),
+                                                     reference::Vector3<Scalar>(units_of(side))));
+}
+
+// The least gap on the way, and how far along it is.
+struct Closest {
+    std::int64_t gap = INT64_MAX;
+    std::int64_t first_deep = -1; // of 512 parts of the way, the first with less than `depth`
+};
+Closest closest_on_way(const lks::Piece& a, const lks::Piece& b, const lks::fixed::Vec3& way,
+                       std::int64_t margin, std::int64_t depth) {
+    Closest closest;
+    for (std::int64_t part = 0; part <= 512; ++part) {
+        lks::Piece moved = b;
+        moved.centre =
+            b.centre + lks::fixed::Vec3{way.x * part / 512, way.y * part / 512, way.z * part / 512};
+        lks::Manifold found{};
+        lks::collide(a, moved, margin, lks::no_side, found);
+        closest.gap = std::min(closest.gap, found.gap);
+        if (closest.first_deep < 0 && found.gap < -depth) {
+            closest.first_deep = part;
+        }
+    }
+    return closest;
 }
 
 } // namespace
@@ -147,4 +174,84 @@ TEST_CASE("contact points of any two shapes are those of the reference within 2e
             CHECK(single_sum >= 25 * sum);
         }
     }
+}
+
+TEST_CASE("contact points of shapes that move are those of the reference but in 1 of 1000 pairs") {
+    Random random(18);
+    for (const std::uint32_t kind_a : {LKS_SHAPE_SPHERE, LKS_SHAPE_CAPSULE, LKS_SHAPE_BOX}) {
+        constexpr int pairs = 20000;
+        int moved = 0, others = 0;
+        double worst = 0;
+        for (int i = 0; i < pairs; ++i) {
+            lks::Piece a = random_piece(random, kind_a);
+            lks::Piece b = random_piece(random, LKS_SHAPE_BOX);
+            if (i % 4 == 0) {
+                b.axes = nearly(random, a.axes);
+            }
+            b.centre = random_vector(random, -1, 1);
+            if (i % 2 == 1) {
+                std::swap(a, b);
+            }
+            const lks::fixed::Vec3 way = random_vector(random, -0.5, 0.5);
+            const std::int64_t margin = fixed(1.6);
+            lks::Manifold here{}, found{};
+            lks::collide(a, b, margin, lks::no_side, here);
+            lks::collide_on_way(a, b, way, margin, lks::no_side, found);
+            moved += here.normal.x != found.normal.x ? 1 : 0;
+            const reference::Piece<double> same_a = same_piece<double>(a);
+            const reference::Piece<double> same_b = same_piece<double>(b);
+            const reference::Meeting<double> meeting(
+                same_a, same_b, reference::Vector3<double>(metres_of(way)), metres(margin), {});
+            const double off = distance_of(found, meeting.found());
+            // Between two of the places that are looked at roundings may choose.
+            others += off > 1e-4 ? 1 : 0;
+            worst = std::max(worst, off > 1e-4 ? 0 : off);
+        }
+        INFO("shape " << kind_a << ": " << others << " others, " << worst << " m off, " << moved << " moved");
+        CHECK(moved > pairs / 20);
+        CHECK(others <= pairs / 1000);
+        CHECK(worst < 1e-5);
+    }
+}
+
+TEST_CASE("what moves touches with the normal that it meets with, and what passes is not pushed") {
+    Random random(19);
+    const std::int64_t depth = fixed(0.001);
+    int passing = 0, meeting = 0, others = 0;
+    for (int i = 0; i < 6000; ++i) {
+        lks::Piece a = random_piece(random, i % 3 == 0 ? LKS_SHAPE_BOX : LKS_SHAPE_CAPSULE);
+        const lks::Piece b = random_piece(random, LKS_SHAPE_BOX);
+        a.centre = random_vector(random, -1, 1);
+        const lks::fixed::Vec3 way = random_vector(random, -0.5, 0.5);
+        const std::int64_t margin = fixed(1.6);
+        lks::Manifold here{}, found{};
+        lks::collide(a, b, margin, lks::no_side, here);
+        if (here.gap < 0) {
+            continue;
+        }
+        lks::collide_on_way(a, b, way, margin, lks::no_side, found);
+        const std::int64_t closing = -lks::fixed::dot(found.normal, way);
+        const Closest closest = closest_on_way(a, b, way, margin, depth);
+        if (closest.gap >= 0) {
+            ++passing;
+            for (std::uint32_t point = 0; point < found.count; ++point) {
+                CHECK(found.points[point].separation - closing > -depth);
+            }
+        } else if (closest.gap < -2 * depth) {
+            ++meeting;
+            // Where it has just gone in that far.
+            lks::Piece moved = b;
+            const std::int64_t part = closest.first_deep;
+            moved.centre =
+                b.centre + lks::fixed::Vec3{way.x * part / 512, way.y * part / 512, way.z * part / 512};
+            lks::Manifold there{};
+            lks::collide(a, moved, margin, lks::no_side, there);
+            CHECK(closing > 0);
+            others += (units_of(there.normal) - units_of(found.normal)).length() > 0.2 ? 1 : 0;
+        }
+    }
+    CHECK(passing > 300);
+    CHECK(meeting > 300);
+    // Two sides that they go into at once.
+    CHECK(others <= meeting / 200);
 }

@@ -15,6 +15,7 @@ namespace manifold_detail {
 void add_point(Manifold& out, const Vec3& core_a, const Vec3& core_b, std::int64_t radii, std::int64_t margin,
                std::uint32_t feature) {
     const std::int64_t separation = fixed::dot(out.normal, core_b - core_a) - radii;
+    out.gap = std::min(out.gap, separation);
     if (separation <= margin && out.count < greatest_point_count) {
         out.points[out.count++] = {core_a, core_b, separation, feature};
     }
@@ -63,6 +64,7 @@ void collide_plane(const Piece& a, const Piece& plane, std::int64_t margin, Mani
 void collide(const Piece& a, const Piece& b, std::int64_t margin, const Direction& side, Manifold& out) {
     using namespace manifold_detail;
     out.count = 0;
+    out.gap = INT64_MAX;
     if (b.kind == LKS_SHAPE_PLANE) {
         collide_plane(a, b, margin, out);
     } else if (a.kind == LKS_SHAPE_BOX && b.kind == LKS_SHAPE_BOX) {

@@ -34,6 +34,7 @@ struct ManifoldPoint {
 struct Manifold {
     fixed::Direction normal; // from a to b
     std::uint32_t count;
+    std::int64_t gap; // of the shapes along the normal, no more than their distance; also without any points
     ManifoldPoint points[greatest_point_count];
 };
 

@@ -123,15 +123,19 @@ public:
 
     void run() {
         find_faces();
-        out_.normal = face_normal_;
-        if (face_separation_ > margin_ || !find_edges()) {
-            return;
+        if (face_separation_ <= margin_) {
+            find_edges();
         }
-        if (best_edge_ < 0) {
-            touch_face();
-        } else {
-            touch_edges();
+        const bool faces = best_edge_ < 0;
+        out_.normal = faces ? face_normal_ : edge_normal_;
+        if (face_separation_ <= margin_) {
+            if (faces) {
+                touch_face();
+            } else {
+                touch_edges();
+            }
         }
+        out_.gap = faces ? face_separation_ : edge_separation_;
     }
 
 private:
@@ -172,8 +176,8 @@ private:
         }
     }
 
-    // False: they are apart.
-    bool find_edges() {
+    // As far as one that keeps them apart.
+    void find_edges() {
         std::int64_t best = face_separation_ + 4 * tolerance;
         const Vec3 offset = fixed::rotate_transposed(a_.axes, offset_);
         for (int i = 0; i < 3; ++i) {
@@ -197,17 +201,17 @@ private:
                 const std::int64_t separation = (back ? -distance : distance) -
                                                 width(a_, in_a.x, in_a.y, in_a.z) -
                                                 width(b_, in_b.x, in_b.y, in_b.z);
-                if (separation > margin_) {
-                    return false;
-                }
                 if (separation > best) {
                     best = separation;
                     best_edge_ = 3 * i + j;
+                    edge_separation_ = separation;
                     edge_normal_ = back ? -n : n;
+                }
+                if (separation > margin_) {
+                    return;
                 }
             }
         }
-        return true;
     }
 
     // The separation along u×v as it is, no unit vector: where negative, the true one is no greater. `offset`
@@ -330,6 +334,7 @@ private:
     int best_face_ = -1;
     int best_edge_ = -1;
     std::int64_t face_separation_ = 0;
+    std::int64_t edge_separation_ = 0;
     Direction face_normal_{};
     Direction edge_normal_{};
 };

@@ -175,11 +175,12 @@ private:
                 fixed::scale_component(c < 0 ? -c : c, local_.half) + local_.extents[axis] + piece_.radius;
             // By more than roundings could make.
             constexpr std::int64_t room = std::int64_t{1} << (world_fraction_bits - 20);
-            if ((centre < 0 ? -centre : centre) - reach > margin_ + room &&
-                !is_against({axis, centre < 0 ? -1 : 1}, side_)) {
+            const std::int64_t gap = (centre < 0 ? -centre : centre) - reach;
+            if (gap > margin_ + room && !is_against({axis, centre < 0 ? -1 : 1}, side_)) {
                 std::int32_t outward[3] = {0, 0, 0};
                 outward[axis] = centre < 0 ? -direction_one : direction_one;
                 set_normal({outward[0], outward[1], outward[2]});
+                out_.gap = gap;
                 return true;
             }
         }

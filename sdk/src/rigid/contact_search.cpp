@@ -7,6 +7,7 @@
 #include "collide/plane_motion.h"
 #include "collide/saturation.h"
 #include "memory/sort_numbers.h"
+#include "rigid/meeting.h"
 #include "rigid/piece_bounds.h"
 #include "rigid/sleep.h"
 #include "threads/blocks.h"
@@ -70,6 +71,13 @@ std::int64_t aside(std::int64_t way) {
     return way / 4;
 }
 
+// Whether what they do on their way counts, and not only where they are. Joints turn the ways of two bones.
+// And they draw what is fast past an edge that it would only graze: figures that are thrown at a fence pass
+// it more often.
+bool follows_way(const Body& a, const Body& b, bool fast) {
+    return fast ? !a.jointed && !b.jointed : keeps_side(a, b);
+}
+
 // Where its bodies are now, with what it pushed before; `side` is the normal that it had.
 void find_points(const lks_world& world, Contact& contact, const Direction& side) {
     const RigidScene& scene = world.rigid;
@@ -98,7 +106,8 @@ void find_points(const lks_world& world, Contact& contact, const Direction& side
     if (piece_b.kind == LKS_SHAPE_PLANE ||
         !passes_by(saturating_subtract(piece_b.centre, piece_a.centre), way,
                    room_around(extent(piece_a), extent(piece_b), room))) {
-        collide(piece_a, piece_b, motion + near_distance, keeps ? side : no_side, manifold);
+        collide_on_way(piece_a, piece_b, follows_way(a, b, contact.fast) ? way : Vec3{0, 0, 0},
+                       motion + near_distance, keeps ? side : no_side, manifold);
     }
     ContactPush old_pushes[greatest_point_count];
     for (std::uint32_t i = 0; i < contact.count; ++i) {
@@ -389,7 +398,7 @@ private:
                 }
                 FoundContact found;
                 found.key = {a, other, i * LKS_MAX_BODY_SHAPES + j};
-                if (touches(piece(a, i), piece_b, way, spins, body_a.jointed || body_b.jointed, found)) {
+                if (touches({piece(a, i), piece_b}, {body_a, body_b}, way, spins, found)) {
                     use(found);
                 }
             }
@@ -429,28 +438,43 @@ private:
     static bool is_round(const Piece& piece) {
         return piece.kind == LKS_SHAPE_SPHERE || piece.kind == LKS_SHAPE_CAPSULE;
     }
+    struct Pieces {
+        const Piece& a;
+        const Piece& b;
+    };
+    struct Bodies {
+        const Body& a;
+        const Body& b;
+    };
+
     // Whether the way that they push each other turns in this tick: of round surfaces by more than a 64th.
     // Balls that pass each other off centre would part as if they had met where the tick began: 5° astray at
     // 5 m/s. Of what is about to meet a box by more than a 16th: its edge would be a wall that goes on.
-    static bool normal_turns(const Piece& a, const Piece& b, const Manifold& manifold, const Vec3& way) {
+    static bool normal_turns(const Pieces& pieces, const Bodies& bodies, const Manifold& manifold,
+                             const Vec3& way) {
+        const Piece& a = pieces.a;
+        const Piece& b = pieces.b;
         if (b.kind == LKS_SHAPE_PLANE) {
             return false;
         }
         const Vec3 aside = way - fixed::scale(manifold.normal, fixed::dot(manifold.normal, way));
         if (is_round(a) && is_round(b)) {
-            return sum_of_magnitudes(aside) > (a.radius + b.radius) / 64;
+            return !bodies.a.jointed && !bodies.b.jointed &&
+                   sum_of_magnitudes(aside) > (a.radius + b.radius) / 64;
         }
         std::int64_t gap = INT64_MAX;
         for (std::uint32_t i = 0; i < manifold.count; ++i) {
             gap = std::min(gap, manifold.points[i].separation);
         }
-        return manifold.count != 0 && gap > touching_distance &&
+        return keeps_side(bodies.a, bodies.b) && manifold.count != 0 && gap > touching_distance &&
                sum_of_magnitudes(aside) > (a.radius + b.radius + gap) / 16;
     }
 
     // `way`: of b against a in this tick, `spins`: how far they turn each other's points at most.
-    static bool touches(const Piece& a, const Piece& b, const Vec3& way, std::int64_t spins, bool jointed,
+    static bool touches(const Pieces& pieces, const Bodies& bodies, const Vec3& way, std::int64_t spins,
                         FoundContact& found) {
+        const Piece& a = pieces.a;
+        const Piece& b = pieces.b;
         const std::int64_t motion = sum_of_magnitudes(way) + spins;
         // One look a tick is enough where neither passes the other's middle in it, and where what is inside
         // the other does not turn out of it.
@@ -459,13 +483,14 @@ private:
         found.radius_b = b.radius;
         found.manifold.normal = {0, 0, 0};
         found.manifold.count = 0;
-        collide(a, b, motion + near_distance, no_side, found.manifold);
+        collide_on_way(a, b, follows_way(bodies.a, bodies.b, fast) ? way : Vec3{0, 0, 0},
+                       motion + near_distance, no_side, found.manifold);
         // Boxes beside each other show no points, and may yet meet at their edges.
         const bool unclear = fast && found.manifold.count == 0;
         drop_what_stays_apart(found.manifold, way, spins);
         found.fast = fast;
         found.every_substep =
-            fast || sticks(found.manifold) || (!jointed && normal_turns(a, b, found.manifold, way));
+            fast || sticks(found.manifold) || normal_turns(pieces, bodies, found.manifold, way);
         return found.manifold.count != 0 || unclear;
     }
 
