@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "support/bodies.h"
+#include "support/overlaps.h"
 
 using namespace support;
 
@@ -138,4 +139,39 @@ TEST_CASE("what nothing can free falls asleep, later than what lies free") {
     CHECK(ticks[0] < 60);
     CHECK(ticks[1] >= 120);
     CHECK(ticks[1] < 300);
+}
+
+// Asleep with what was left, they were 20 cm in each other, and the crate 5 cm in what lies on it.
+TEST_CASE("what is still coming out of something else does not fall asleep in it") {
+    struct Start {
+        lks_body_shape shape;
+        double height;
+    };
+    const lks_body_shape box = box_shape(0.1, 0.1, 0.1);
+    const Start crate{box_shape(0.1, 0.1, 0.1, 625), 0.1};  // 5 kg
+    const Start weight{box_shape(0.5, 0.5, 0.5, 500), 1.7}; // 500 kg
+    for (const std::vector<Start>& starts :
+         {std::vector<Start>(20, {box, 0.5}), std::vector<Start>(8, {box, 0.5}),
+          std::vector<Start>(12, {capsule_shape(0.1, 0.2), 0.5}), std::vector<Start>{crate, weight}}) {
+        World world(world_def(60, 8));
+        add_ground(world);
+        std::vector<lks_body_id> bodies;
+        for (const Start& start : starts) {
+            bodies.push_back(add_body(world, start.shape, fixed(0, start.height, 0)));
+        }
+        const int ticks = ticks_awake(world, 1200);
+        std::vector<Solid> solids;
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            solids.push_back(solid_of(starts[i].shape, state_of(world, bodies[i])));
+        }
+        double gap = 0;
+        for (std::size_t i = 0; i < solids.size(); ++i) {
+            for (std::size_t j = i + 1; j < solids.size(); ++j) {
+                gap = std::min(gap, gap_between(solids[i], solids[j]));
+            }
+        }
+        INFO(starts.size() << " bodies: asleep after " << ticks << " ticks, " << -gap << " m of overlap");
+        CHECK(ticks < 600);
+        CHECK(gap > -2.5e-3);
+    }
 }

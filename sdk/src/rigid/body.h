@@ -53,7 +53,7 @@ struct BodyState {
     fixed::Vec3 velocity;         // World, m/s
     fixed::Vec3 angular_velocity; // World, rad/s, in world axes
     Quaternion rest_orientation;
-    std::uint32_t rest_ticks;
+    std::uint32_t rest;   // for how long, in fifths of a tick
     std::uint32_t asleep; // 0 or 1
 };
 
@@ -87,6 +87,7 @@ struct Body : BodyState {
     std::int64_t struck; // asleep: how fast particles would have made it, World m/s
     bool touched;        // by a contact that pushed at the end of the tick
     bool squeezed;       // deep in something else, at the beginning of the last substep
+    bool sticks;         // deeper, by more than sticking_depth
     bool figure_touched; // the least body of a figure: any of its bodies is
     fixed::Vec3 tick_position;
     Quaternion tick_orientation;

@@ -37,9 +37,9 @@ struct ContactMemory {
 
 // How long the bodies of an island have rested.
 struct IslandRest {
-    std::uint32_t least; // ticks
+    std::uint32_t least; // as Body::rest
     std::uint32_t count; // of bodies
-    std::uint64_t sum;   // of their ticks
+    std::uint64_t sum;   // of their rest
     bool squeezed;       // any of them is
 };
 

@@ -186,7 +186,7 @@ private:
         wake_who_was_left(world_);
         for_each_attachment(world_, [](Attachment& attachment, const AttachmentSides& sides) {
             if (sides.body != nullptr && attachment.constants.movable != 0) {
-                sides.body->rest_ticks = 0;
+                sides.body->rest = 0;
             }
         });
     }

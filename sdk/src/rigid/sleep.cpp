@@ -21,6 +21,8 @@ constexpr std::uint32_t squeezed_factor = 4;
 constexpr std::uint32_t most_factor = 5;
 // Squeezed is what overlaps by more than a millimetre and a half.
 constexpr std::int64_t squeezed_depth = (std::int64_t{3} << world_fraction_bits) / 2000;
+// Rest counts in fifths of a tick: of what sticks in something, and is still coming out, each tick is one.
+constexpr std::uint32_t rest_of_tick = 5;
 
 // What joints and pushing contacts hold together.
 BodyRoots find_islands(RigidScene& scene) {
@@ -71,13 +73,18 @@ void for_each_disturbed(const lks_world& world, const Use& use) {
 
 void mark_touched(RigidScene& scene) {
     for (Body& body : scene.bodies) {
-        body.touched = body.figure_touched = body.squeezed = false;
+        body.touched = body.figure_touched = body.squeezed = body.sticks = false;
     }
+    const auto squeeze = [](Body& body, bool sticks) {
+        body.squeezed = true;
+        body.sticks = body.sticks || sticks;
+    };
     for (const Contact& contact : scene.contacts) {
         if (is_deeper(contact, squeezed_depth)) {
-            scene.bodies[contact.key.body_a].squeezed = true;
+            const bool sticks = is_deeper(contact, sticking_depth);
+            squeeze(scene.bodies[contact.key.body_a], sticks);
             if (contact.key.other < other_is_collider) {
-                scene.bodies[contact.key.other].squeezed = true;
+                squeeze(scene.bodies[contact.key.other], sticks);
             }
         }
     }
@@ -103,13 +110,13 @@ bool has_stayed(const Body& body) {
            sum_of_magnitudes(half_turn_between(body.rest_orientation, body.orientation)) <= still_turn;
 }
 
-// Counts the ticks for which a body has trembled at one place, or crept. A twitch of a limb takes back some
-// of them, a real motion all. Slow is a pendulum, too, where it turns: of what hangs or floats only those
-// ticks count that it has stayed.
+// Counts for how long a body has trembled at one place, or crept. A twitch of a limb takes back some of it, a
+// real motion all. Slow is a pendulum, too, where it turns: of what hangs or floats only the time counts that
+// it has stayed.
 void count_rest(Body& body, std::int64_t radius, bool hangs, std::uint32_t most) {
     constexpr std::int64_t slow = (std::int64_t{1} << world_fraction_bits) / 10;
     constexpr std::int64_t fast = (std::int64_t{1} << world_fraction_bits) / 2;
-    constexpr std::uint32_t twitch = 8;
+    constexpr std::uint32_t twitch = 8 * rest_of_tick;
     const bool stayed = has_stayed(body);
     if (!stayed) {
         body.rest_position = body.position;
@@ -117,19 +124,19 @@ void count_rest(Body& body, std::int64_t radius, bool hangs, std::uint32_t most)
     }
     const std::int64_t speed = greatest_speed(body, radius);
     if (stayed || (!hangs && speed <= slow)) {
-        body.rest_ticks = std::min(body.rest_ticks + 1, most);
+        body.rest = std::min(body.rest + (body.sticks ? 1 : rest_of_tick), most);
     } else if (hangs) {
-        body.rest_ticks = 0;
+        body.rest = 0;
     } else {
         const bool twitches = speed <= fast || body.squeezed;
-        body.rest_ticks = twitches && body.rest_ticks >= twitch ? body.rest_ticks - twitch : 0;
+        body.rest = twitches && body.rest >= twitch ? body.rest - twitch : 0;
     }
 }
 
-void add_rest(IslandRest& island, std::uint32_t ticks, bool squeezed) {
-    island.least = std::min(island.least, ticks);
+void add_rest(IslandRest& island, std::uint32_t rest, bool squeezed) {
+    island.least = std::min(island.least, rest);
     ++island.count;
-    island.sum += ticks;
+    island.sum += rest;
     island.squeezed = island.squeezed || squeezed;
 }
 
@@ -152,7 +159,7 @@ void calm(Body& body) {
 
 void wake(Body& body) {
     body.asleep = 0;
-    body.rest_ticks = 0;
+    body.rest = 0;
 }
 
 void wake_all(RigidScene& scene) {
@@ -216,7 +223,8 @@ void wake_islands(lks_world& world) {
 
 void fall_asleep(lks_world& world) {
     RigidScene& scene = world.rigid;
-    const std::uint32_t enough = std::max(world.rate.ticks_per_second / 2, 2u);
+    const std::uint32_t enough = rest_of_tick * std::max(world.rate.ticks_per_second / 2, 2u);
+    const std::uint32_t calming = enough / rest_of_tick / 3 * rest_of_tick;
     mark_touched(scene);
     // A figure without a contact is an island by itself.
     const auto hangs = [&](std::size_t i) { return !scene.bodies[scene.figures[i]].figure_touched; };
@@ -226,16 +234,16 @@ void fall_asleep(lks_world& world) {
         if (body.is_awake()) {
             const bool alone = hangs(i);
             count_rest(body, scene.descriptions[i].radius, alone, most_factor * enough);
-            if (body.touched && body.rest_ticks >= enough / 3 && scene.descriptions[i].never_sleeps == 0) {
+            if (body.touched && body.rest >= calming && scene.descriptions[i].never_sleeps == 0) {
                 calm(body);
             }
-            ready = ready || body.rest_ticks >= enough;
+            ready = ready || body.rest >= enough;
         }
     }
     if (!ready) {
         return;
     }
-    for_each_disturbed(world, [&](std::uint32_t body) { scene.bodies[body].rest_ticks = 0; });
+    for_each_disturbed(world, [&](std::uint32_t body) { scene.bodies[body].rest = 0; });
     BodyRoots islands = find_islands(scene);
     Array<IslandRest>& rests = scene.island_rests;
     rests.clear();
@@ -245,7 +253,7 @@ void fall_asleep(lks_world& world) {
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         const Body& body = scene.bodies[i];
         if (body.is_dynamic()) {
-            const std::uint32_t own = hangs(i) ? body.rest_ticks / hanging_factor : body.rest_ticks;
+            const std::uint32_t own = hangs(i) ? body.rest / hanging_factor : body.rest;
             add_rest(rests[islands.root(i)], scene.descriptions[i].never_sleeps != 0 ? 0 : own,
                      body.squeezed);
         }

@@ -51,7 +51,7 @@ RigidChecks::RigidChecks(const lks_world& world) : world_(world) {
         // Spins may go beyond the limit by what the middle of a substep differs from its end.
         .within(2 * body_spin_limit(world.rate), 3)
         .within(turn_one + unit_room, 4)
-        .between(0, (std::int64_t{1} << 32) + greatest_u32); // any rest_ticks; asleep 0 or 1
+        .between(0, (std::int64_t{1} << 32) + greatest_u32); // any rest; asleep 0 or 1
     joint_ranges_
         .within(greatest_uneven_push, 3) // push
         .within(greatest_push, 6)        // turn, grip

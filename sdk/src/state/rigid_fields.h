@@ -66,7 +66,7 @@ void body_motion_fields(Io& io, BodyState& body) {
     vector_fields(io, body.velocity);
     vector_fields(io, body.angular_velocity);
     quaternion_fields(io, body.rest_orientation);
-    io.u32(body.rest_ticks);
+    io.u32(body.rest);
     io.u32(body.asleep);
 }
 
