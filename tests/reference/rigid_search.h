@@ -1,5 +1,5 @@
 // Where bodies of the rigid reference solver touch: once a tick, with room for the tick's motion, and in each
-// substep what is fast or sticks in the other (sdk/src/rigid/contact_search.cpp).
+// substep what is fast or sticks in the other (sdk/src/rigid/contact_search.cpp, shape_touch.cpp).
 #pragma once
 
 #include <algorithm>

@@ -21,6 +21,9 @@ namespace lks {
 // What overlaps by more than this, five millimetres, sticks in the other.
 inline constexpr std::int64_t sticking_depth = (std::int64_t{1} << world_fraction_bits) / 200;
 
+// Surfaces that are nearer than this, a millimetre, touch.
+inline constexpr std::int64_t touching_distance = (std::int64_t{1} << world_fraction_bits) / 1000;
+
 // Points that are further apart than this, a centimetre, push nothing yet; others may still push them
 // together.
 inline constexpr std::int64_t near_point = (std::int64_t{1} << world_fraction_bits) / 100;

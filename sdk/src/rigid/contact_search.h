@@ -10,8 +10,6 @@ void place_collider_bodies(lks_world& world);
 // Fills the scene's contacts, in ascending order of keys, with what is near enough to touch in this tick.
 // Sleeping bodies that something touches are woken, with their islands. `team`: null, or who helps.
 void find_contacts(lks_world& world, Team* team);
-// For contacts that need more than one look a tick: the points at the beginning of a substep.
-void find_points_again(const lks_world& world, Contact& contact);
 
 // Those asleep that a kinematic body touches where the game has put it. It does not move, and no tick would
 // look for them; whom a dynamic one touches is woken by the search.

@@ -13,6 +13,7 @@
 #include "rigid/joint_turns.h"
 #include "rigid/particle_contact.h"
 #include "rigid/rope_loads.h"
+#include "rigid/shape_touch.h"
 #include "rigid/wide_trees.h"
 #include "solver/object_tick.h"
 #include "solver/pins.h"

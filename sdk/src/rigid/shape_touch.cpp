@@ -1,0 +1,134 @@
+#include "rigid/shape_touch.h"
+
+#include <algorithm>
+
+#include "collide/saturation.h"
+#include "rigid/meeting.h"
+#include "rigid/piece_bounds.h"
+#include "rigid/placed_pieces.h"
+#include "rigid/ways.h"
+
+namespace lks {
+namespace {
+
+using fixed::Direction;
+using fixed::Vec3;
+
+// Whether what they do on their way counts, and not only where they are. Joints turn the ways of two bones.
+// And they draw what is fast past an edge that it would only graze: figures that are thrown at a fence pass
+// it more often.
+bool follows_way(const Body& a, const Body& b, bool fast) {
+    return fast ? !a.jointed && !b.jointed : keeps_side(a, b);
+}
+
+// Whatever of it is pushed, something else of it goes in.
+bool sticks(const Manifold& manifold) {
+    return std::any_of(manifold.points, manifold.points + manifold.count,
+                       [](const ManifoldPoint& point) { return point.separation < -sticking_depth; });
+}
+
+bool is_round(const Piece& piece) {
+    return piece.kind == LKS_SHAPE_SPHERE || piece.kind == LKS_SHAPE_CAPSULE;
+}
+
+// Whether the way that they push each other turns in this tick: of round surfaces by more than a 64th.
+// Balls that pass each other off centre would part as if they had met where the tick began: 5° astray at
+// 5 m/s. Of what is about to meet a box by more than a 16th: its edge would be a wall that goes on.
+bool normal_turns(const PiecePair& pieces, const BodyPair& bodies, const Manifold& manifold,
+                  const Vec3& way) {
+    const Piece& a = pieces.a;
+    const Piece& b = pieces.b;
+    if (b.kind == LKS_SHAPE_PLANE) {
+        return false;
+    }
+    const Vec3 across = way - fixed::scale(manifold.normal, fixed::dot(manifold.normal, way));
+    if (is_round(a) && is_round(b)) {
+        return !bodies.a.jointed && !bodies.b.jointed &&
+               sum_of_magnitudes(across) > (a.radius + b.radius) / 64;
+    }
+    std::int64_t gap = INT64_MAX;
+    for (std::uint32_t i = 0; i < manifold.count; ++i) {
+        gap = std::min(gap, manifold.points[i].separation);
+    }
+    return keeps_side(bodies.a, bodies.b) && manifold.count != 0 && gap > touching_distance &&
+           sum_of_magnitudes(across) > (a.radius + b.radius + gap) / 16;
+}
+
+// Of the motion that the search allowed for, only what closes the gap counts.
+void drop_what_stays_apart(Manifold& manifold, const Vec3& way, std::int64_t spins) {
+    const std::int64_t closing = std::max<std::int64_t>(0, -fixed::dot(manifold.normal, way));
+    std::uint32_t kept = 0;
+    for (std::uint32_t i = 0; i < manifold.count; ++i) {
+        if (manifold.points[i].separation <= near_distance + closing + spins) {
+            manifold.points[kept++] = manifold.points[i];
+        }
+    }
+    manifold.count = kept;
+}
+
+} // namespace
+
+bool touches(const PiecePair& pieces, const BodyPair& bodies, const Vec3& way, std::int64_t spins,
+             FoundContact& found) {
+    const Piece& a = pieces.a;
+    const Piece& b = pieces.b;
+    const std::int64_t motion = sum_of_magnitudes(way) + spins;
+    // One look a tick is enough where neither passes the other's middle in it, and where what is inside
+    // the other does not turn out of it.
+    const bool fast = motion > fixed::saturating_add(thickness(a), thickness(b));
+    found.radius_a = a.radius;
+    found.radius_b = b.radius;
+    found.manifold.normal = {0, 0, 0};
+    found.manifold.count = 0;
+    collide_on_way(a, b, follows_way(bodies.a, bodies.b, fast) ? way : Vec3{0, 0, 0}, motion + near_distance,
+                   no_side, found.manifold);
+    // Boxes beside each other show no points, and may yet meet at their edges.
+    const bool unclear = fast && found.manifold.count == 0;
+    drop_what_stays_apart(found.manifold, way, spins);
+    found.fast = fast;
+    found.every_substep = fast || sticks(found.manifold) || normal_turns(pieces, bodies, found.manifold, way);
+    return found.manifold.count != 0 || unclear;
+}
+
+void find_points(const lks_world& world, Contact& contact, const Direction& side) {
+    const RigidScene& scene = world.rigid;
+    const Body& a = scene.bodies[contact.key.body_a];
+    const bool with_collider = contact.key.other >= other_is_collider;
+    const std::uint32_t index = contact.key.other & ~other_is_collider;
+    const Body& b = with_collider ? scene.collider_bodies[index] : scene.bodies[index];
+    const BodyDescription& description = scene.descriptions[contact.key.body_a];
+    const BodyShape& shape_a = description.shapes[contact.key.shapes / LKS_MAX_BODY_SHAPES];
+    const Piece piece_a = piece_of_body(a, shape_a, a.position);
+    const Piece piece_b =
+        with_collider
+            ? piece_of_collider(b, world.colliders[index].collider, a.position)
+            : piece_of_body(b, scene.descriptions[index].shapes[contact.key.shapes % LKS_MAX_BODY_SHAPES],
+                            a.position);
+    const auto n = static_cast<std::int64_t>(world.rate.substeps_per_second);
+    const std::int64_t radius_b = with_collider ? reach(piece_b) : scene.descriptions[index].radius;
+    const std::int64_t motion = (greatest_speed(a, description.radius) + greatest_speed(b, radius_b)) / n;
+    const std::int64_t spins = (spin_speed(a, description.radius) + spin_speed(b, radius_b)) / n;
+    Manifold manifold;
+    manifold.normal = contact.normal();
+    manifold.count = 0;
+    const bool keeps = keeps_side(a, b);
+    const Vec3 way = way_in(saturating_subtract(b.velocity, a.velocity), n);
+    const std::int64_t room = spins + near_distance + (keeps ? aside(sum_of_magnitudes(way)) : 0);
+    if (piece_b.kind == LKS_SHAPE_PLANE ||
+        !passes_by(saturating_subtract(piece_b.centre, piece_a.centre), way,
+                   room_around(extent(piece_a), extent(piece_b), room))) {
+        collide_on_way(piece_a, piece_b, follows_way(a, b, contact.fast) ? way : Vec3{0, 0, 0},
+                       motion + near_distance, keeps ? side : no_side, manifold);
+    }
+    ContactPush old_pushes[greatest_point_count];
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        old_pushes[i] = contact.points[i].push;
+    }
+    take_manifold(contact, {old_pushes, contact.count}, manifold, a, b);
+}
+
+void find_points_again(const lks_world& world, Contact& contact) {
+    find_points(world, contact, contact.count == 0 ? no_side : contact.normal());
+}
+
+} // namespace lks
