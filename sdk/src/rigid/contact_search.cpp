@@ -237,19 +237,30 @@ private:
         if (a.asleep == 0 && b.asleep == 0) {
             return false;
         }
-        const std::int64_t closing = per_tick(-fixed::dot(manifold.normal, b.velocity - a.velocity));
         // What has just been woken is about to be pushed: its neighbours are not to stand like walls.
-        const bool comes = (a.is_awake() || b.is_awake()) &&
-                           (closing > per_tick(gentle_speed) || a.has_woken() || b.has_woken());
-        const bool carried = !a.is_dynamic() || !b.is_dynamic();
+        const bool carried = !a.is_dynamic() || !b.is_dynamic() || a.has_woken() || b.has_woken();
+        const bool comes = a.is_awake() || b.is_awake();
         for (std::uint32_t i = 0; (comes || carried) && i < manifold.count; ++i) {
-            if (manifold.points[i].separation <= touching_distance + std::max<std::int64_t>(closing, 0)) {
+            const std::int64_t closing = closing_at(manifold, manifold.points[i], a, b);
+            // What comes may speed up on its way.
+            const std::int64_t way = std::max<std::int64_t>(closing + closing / 4, 0);
+            if ((carried || closing > per_tick(gentle_speed)) &&
+                manifold.points[i].separation <= touching_distance + way) {
                 wake(a.asleep != 0 ? a : b);
                 woken_ = true;
                 return true;
             }
         }
-        return !a.is_awake() && !b.is_awake();
+        return !comes;
+    }
+
+    // How far two bodies come closer there in a tick: what topples comes by its spin.
+    std::int64_t closing_at(const Manifold& manifold, const ManifoldPoint& point, const Body& a,
+                            const Body& b) const {
+        const Vec3 between = saturating_subtract(b.position, a.position);
+        const Vec3 speed_a = velocity_at(a, point.core_a);
+        const Vec3 speed_b = velocity_at(b, saturating_subtract(point.core_b, between));
+        return per_tick(-fixed::dot(manifold.normal, saturating_subtract(speed_b, speed_a)));
     }
 
     lks_world& world_;

@@ -146,9 +146,30 @@ bool has_rested(const IslandRest& island, std::uint32_t enough) {
     return island.least >= enough && (!island.squeezed || island.sum >= on_average);
 }
 
-// What lies on something and is on its way to sleep gives up a quarter of its speed a tick: a pile in which
-// everybody trembles a little would keep itself awake. What hangs or flies does not: a pendulum is slow, too,
-// where it turns back.
+// Whether it moves back to where it has rested: what trembles does, half of the time, what begins to topple
+// or to slide does not.
+bool returns(const Body& body, std::int64_t radius) {
+    // In millionths or so of a metre, a second and a turn.
+    constexpr int bits = 24;
+    constexpr int down = world_fraction_bits - bits;
+    const auto dot = [](const Vec3& p, const Vec3& q) { return p.x * q.x + p.y * q.y + p.z * q.z; };
+    const auto part = [](const Vec3& v, int shift) {
+        constexpr std::int64_t most = std::int64_t{1} << 30;
+        const auto along = [&](std::int64_t c) { return std::clamp(c >> shift, -most, most); };
+        return Vec3{along(v.x), along(v.y), along(v.z)};
+    };
+    const Vec3 way = part(saturating_subtract(body.position, body.rest_position), down);
+    const Vec3 turn =
+        part(half_turn_between(body.rest_orientation, body.orientation), turn_fraction_bits - bits - 1);
+    const std::int64_t lever = std::min<std::int64_t>(radius >> down, std::int64_t{1} << 30);
+    const std::int64_t by_turn = fixed::saturate_to_int64(fixed::multiply_signed(
+        dot(part(body.angular_velocity, down), turn) >> bits, (lever * lever) >> bits));
+    return fixed::saturating_add(dot(part(body.velocity, down), way), by_turn) < 0;
+}
+
+// What lies on something and is on its way to sleep gives up a quarter of its speed in each tick in which it
+// returns: a pile in which everybody trembles a little would keep itself awake. What hangs or flies does not:
+// a pendulum is slow, too, where it turns back.
 void calm(Body& body) {
     const auto part = [](const Vec3& v) { return Vec3{v.x - v.x / 4, v.y - v.y / 4, v.z - v.z / 4}; };
     body.velocity = part(body.velocity);
@@ -234,7 +255,8 @@ void fall_asleep(lks_world& world) {
         if (body.is_awake()) {
             const bool alone = hangs(i);
             count_rest(body, scene.descriptions[i].radius, alone, most_factor * enough);
-            if (body.touched && body.rest >= calming && scene.descriptions[i].never_sleeps == 0) {
+            if (body.touched && body.rest >= calming && scene.descriptions[i].never_sleeps == 0 &&
+                returns(body, scene.descriptions[i].radius)) {
                 calm(body);
             }
             ready = ready || body.rest >= enough;
