@@ -34,6 +34,8 @@ const std::vector<Entry>& entries() {
          make_crane},
         {{"box_stack", "A tower and a pyramid of boxes, and a ball that rolls into it", 300, 150, {60, 110}},
          make_box_stack},
+        {{"dominoes", "A ball tips a row of dominoes, and the last one bowls", 420, 330, {130, 310}},
+         make_dominoes},
         {{"newtons_cradle", "Five balls on rods hand on an impact", 600, 150, {50, 120}},
          make_newtons_cradle},
         {{"bouncing_balls",

@@ -15,6 +15,7 @@ std::unique_ptr<Scene> make_rope_wrap(const SceneInfo& info);
 std::unique_ptr<Scene> make_curtain_rings(const SceneInfo& info);
 std::unique_ptr<Scene> make_crane(const SceneInfo& info);
 std::unique_ptr<Scene> make_box_stack(const SceneInfo& info);
+std::unique_ptr<Scene> make_dominoes(const SceneInfo& info);
 std::unique_ptr<Scene> make_newtons_cradle(const SceneInfo& info);
 std::unique_ptr<Scene> make_bouncing_balls(const SceneInfo& info);
 std::unique_ptr<Scene> make_ragdoll_stairs(const SceneInfo& info);
