@@ -8,6 +8,8 @@
 #include "fixed/vector.h"
 #include "kernels/bounded.h"
 #include "kernels/measure_segment.h"
+#include "solver/chain_across.h"
+#include "solver/chain_passes.h"
 #include "solver/wrapping.h"
 
 namespace lks {
@@ -36,16 +38,6 @@ static_assert(substep_motion_limit == std::int64_t{1} << movement_bits);
 constexpr std::int64_t side_limit = std::int64_t{1} << 61;
 // Of the scales that both eliminations are carried with.
 constexpr std::uint64_t scale_one = std::uint64_t{1} << 62;
-constexpr std::uint64_t spread_one = std::uint64_t{1} << 63;
-
-std::uint64_t upper_half(std::uint64_t a, std::uint64_t b) {
-    return multiply_unsigned(a, b).hi;
-}
-
-// What is carried of a value, the lowest two bits rounded down.
-std::int64_t carry(std::int64_t share, std::int64_t value) {
-    return fixed::multiply_signed(share, value).hi * (std::int64_t{1} << (64 - carried_bits));
-}
 
 // Rounded down. In two parts, of which the upper one is whole: cheaper than a product of 128 bits.
 std::int64_t unit_share(std::uint32_t unit, std::int64_t value) {
@@ -81,16 +73,11 @@ public:
             move_particles();
             return true;
         }
-        units_ = units_to_carry();
-        if (units_ != 0) {
-            push_particles(units_);
+        const int units = units_to_carry();
+        if (units != 0) {
+            push_particles(units);
         }
-        gather();
-        spread();
-        cross();
-        if (units_ != 0) {
-            leave_units();
-        }
+        off_ = move_across(chain_, kernels_, work_, units);
         move_particles();
         return true;
     }
@@ -111,24 +98,6 @@ private:
     }
     ChainWeights weights_from(std::uint32_t first) const {
         return {chain_.weights.data() + first, chain_.weight_shifts.data() + first};
-    }
-
-    // Blocks of segments from the far end to the near one. All but the last begin and end at multiples of
-    // their size.
-    template <typename Use>
-    static void each_block_back(std::uint32_t count, const Use& use) {
-        for (std::uint32_t last = count; last > 0;) {
-            const std::uint32_t first = (last - 1) / chain_block * chain_block;
-            use(first, last - first);
-            last = first;
-        }
-    }
-    // And back.
-    template <typename Use>
-    static void each_block(std::uint32_t count, const Use& use) {
-        for (std::uint32_t first = 0; first < count; first += chain_block) {
-            use(first, std::min(count - first, chain_block));
-        }
     }
 
     // Of the rows behind, what the next one needs.
@@ -497,141 +466,6 @@ private:
                           chain_.multiplier_exponent - 1);
     }
 
-    // What the pass leaves of movements, in coordinate units, and by the limit at most.
-    void leave_units() const {
-        const std::int64_t limit = substep_motion_limit >> units_;
-        for (std::int64_t* const movements : work_.movements) {
-            for (std::uint32_t i = 0; i <= count_; ++i) {
-                movements[i] = bounded(movements[i], limit) * (std::int64_t{1} << units_);
-            }
-        }
-    }
-
-    // The mean of what a particle and all behind it would do, from the far end to the near one.
-    void gather() const {
-        std::uint64_t scale = spread_one;
-        std::uint64_t part = spread_one;
-        for (int axis = 0; axis < 3; ++axis) {
-            work_.gathered[axis][count_] = work_.movements[axis][count_];
-        }
-        each_block_back(count_, [&](std::uint32_t first, std::uint32_t count) {
-            ChainShares shares;
-            std::int64_t takes[chain_block];
-            shares.count = count;
-            shares.takes = takes;
-            shares.gives = work_.gives + first;
-            scale_spread(shares, first, scale, part);
-            kernels_.chain.share(shares);
-            gather_block(takes, first, count);
-        });
-    }
-
-    // The system for the movements, eliminated as that for the multipliers.
-    void scale_spread(ChainShares& shares, std::uint32_t first, std::uint64_t& scale,
-                      std::uint64_t& part) const {
-        const int one_down = 64 - chain_.stiffness_bits;
-        const std::int64_t* const near = work_.near + first;
-        const std::int64_t* const far = work_.far + first;
-        std::uint64_t q = scale;
-        std::uint64_t p = part;
-        for (std::uint32_t i = shares.count; i-- > 0;) {
-            if (far[i] == 0) {
-                q = spread_one; // nothing is carried across a pin, not even the scale
-                p = spread_one;
-            }
-            const std::uint64_t taken = upper_half(static_cast<std::uint64_t>(far[i]), p);
-            p = (q >> one_down) + taken;
-            q = p + upper_half(static_cast<std::uint64_t>(near[i]), q);
-            const int up = std::countl_zero(q);
-            q <<= up;
-            p <<= up;
-            shares.scales[i] = static_cast<std::int64_t>(q);
-            shares.parts[i] = static_cast<std::int64_t>(p);
-            shares.fars[i] = static_cast<std::int64_t>(taken << up);
-        }
-        scale = q;
-        part = p;
-    }
-
-    void gather_block(const std::int64_t* takes, std::uint32_t first, std::uint32_t count) const {
-        const std::int64_t* const x = work_.movements[0] + first;
-        const std::int64_t* const y = work_.movements[1] + first;
-        const std::int64_t* const z = work_.movements[2] + first;
-        std::int64_t* const to_x = work_.gathered[0] + first;
-        std::int64_t* const to_y = work_.gathered[1] + first;
-        std::int64_t* const to_z = work_.gathered[2] + first;
-        Vec3 behind{to_x[count], to_y[count], to_z[count]};
-        for (std::uint32_t i = count; i-- > 0;) {
-            const std::int64_t share = takes[i];
-            behind = {x[i] + carry(share, behind.x - x[i]), y[i] + carry(share, behind.y - y[i]),
-                      z[i] + carry(share, behind.z - z[i])};
-            to_x[i] = behind.x;
-            to_y[i] = behind.y;
-            to_z[i] = behind.z;
-        }
-    }
-
-    // What each does with all that is before it.
-    void spread() const {
-        const std::int64_t* const gives = work_.gives;
-        std::int64_t* const x = work_.gathered[0];
-        std::int64_t* const y = work_.gathered[1];
-        std::int64_t* const z = work_.gathered[2];
-        const std::uint32_t count = count_;
-        Vec3 near{x[0], y[0], z[0]};
-        for (std::uint32_t i = 1; i <= count; ++i) {
-            const std::int64_t share = gives[i - 1];
-            near = {x[i] + carry(share, near.x - x[i]), y[i] + carry(share, near.y - y[i]),
-                    z[i] + carry(share, near.z - z[i])};
-            x[i] = near.x;
-            y[i] = near.y;
-            z[i] = near.z;
-        }
-    }
-
-    // Of the change, what is across the rope. Without pins the mean of the changes is taken off again.
-    void cross() {
-        ChainAcross task;
-        task.count = count_ + 1;
-        task.rest_lengths = units_ == 0 ? chain_.rest_lengths.data() : rest_lengths_in_units();
-        for (int axis = 0; axis < 3; ++axis) {
-            std::int64_t* const directions = work_.directions[axis];
-            *(directions - 1) = directions[0]; // ends have that of their one segment
-            directions[count_] = directions[count_ - 1];
-            task.directions[axis] = directions;
-            task.movements[axis] = work_.movements[axis];
-            task.changes[axis] = work_.gathered[axis];
-        }
-        off_ = kernels_.chain.cross(task);
-        for (std::int64_t* const directions : work_.directions) {
-            directions[count_] = 0;
-        }
-        if (chain_.pinned_count == 0) {
-            for (int axis = 0; axis < 3; ++axis) {
-                take_mean_off(work_.movements[axis], work_.gathered[axis]);
-            }
-        }
-    }
-
-    // Where the multipliers' factors were, which nothing reads any more.
-    const std::int64_t* rest_lengths_in_units() const {
-        std::int64_t* const lengths = work_.carried;
-        for (std::uint32_t i = 0; i < count_ + chain_padding; ++i) {
-            lengths[i] = chain_.rest_lengths[i] >> units_;
-        }
-        return lengths;
-    }
-
-    void take_mean_off(std::int64_t* movements, const std::int64_t* changes) const {
-        std::int64_t mean = 0;
-        for (std::uint32_t i = 0; i <= count_; ++i) {
-            mean += multiply_shift(chain_.mass_shares[i], changes[i], 63);
-        }
-        for (std::uint32_t i = 0; i <= count_; ++i) {
-            movements[i] -= mean;
-        }
-    }
-
     void move_particles() const {
         const std::uint32_t* const particles = chain_.particles.data();
         const std::int64_t* const x = work_.movements[0];
@@ -657,7 +491,6 @@ private:
     bool eased_; // multipliers so far count
     bool off_ = false;
     bool any_long_ = false; // of a soft rope: it may be torn, or hang from a load
-    int units_ = 0;         // of movements in the second pass: 2^units_ coordinate units
     std::uint64_t softness_;
     std::uint64_t taut_ = rest_one; // what rest lengths are multiplied by in the piece at hand
 };
