@@ -36,7 +36,7 @@ static_assert(substep_motion_limit == std::int64_t{1} << movement_bits);
 
 // Of right sides, which are summed up without a look at each within a block.
 constexpr std::int64_t side_limit = std::int64_t{1} << 61;
-// Of the scales that both eliminations are carried with.
+// Of the scale that the elimination is carried with.
 constexpr std::uint64_t scale_one = std::uint64_t{1} << 62;
 
 // Rounded down. In two parts, of which the upper one is whole: cheaper than a product of 128 bits.
