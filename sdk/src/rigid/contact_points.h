@@ -28,8 +28,13 @@ inline Levers surfaces_of(const Contact& contact, const Levers& cores) {
 }
 
 // How fast the surfaces close there, World m/s.
+inline std::int64_t closing_speed(const fixed::Direction& normal, const Levers& levers,
+                                  const ContactSpeeds& speeds) {
+    return -fixed::dot(normal, velocity_at(speeds.b, levers.b) - velocity_at(speeds.a, levers.a));
+}
+
 inline std::int64_t closing_speed(const Contact& contact, const Levers& levers, const ContactSpeeds& speeds) {
-    return -fixed::dot(contact.normal(), velocity_at(speeds.b, levers.b) - velocity_at(speeds.a, levers.a));
+    return closing_speed(contact.normal(), levers, speeds);
 }
 
 inline std::int64_t closing_speed(const Contact& contact, const Levers& levers, const Body& a,

@@ -5,6 +5,7 @@
 
 #include "collide/filter.h"
 #include "collide/saturation.h"
+#include "rigid/contact_points.h"
 #include "rigid/near_pairs.h"
 #include "rigid/piece_bounds.h"
 #include "rigid/placed_pieces.h"
@@ -18,6 +19,12 @@ namespace {
 
 using fixed::Direction;
 using fixed::Vec3;
+
+template <typename Scene>
+auto& body_of(Scene& scene, std::uint32_t other) {
+    return other >= other_is_collider ? scene.collider_bodies[other & ~other_is_collider]
+                                      : scene.bodies[other];
+}
 
 // Who comes more slowly than this wakes nobody by being near: a centimetre a second.
 constexpr std::int64_t gentle_speed = (std::int64_t{1} << world_fraction_bits) / 100;
@@ -66,22 +73,12 @@ public:
     }
 
 private:
-    std::int64_t per_tick(std::int64_t speed) const {
-        return speed / static_cast<std::int64_t>(world_.rate.ticks_per_second);
-    }
     // Of b against a.
     Vec3 way_between(std::uint32_t a, std::uint32_t other) const {
         const Vec3 way = other >= other_is_collider
                              ? way_in(other_body(scene_, other).velocity, world_.rate.ticks_per_second)
                              : scene_.ways[other];
         return saturating_subtract(way, scene_.ways[a]);
-    }
-
-    const Piece& piece(std::uint32_t body, std::uint32_t shape) const {
-        return scene_.pieces[scene_.piece_starts[body] + shape];
-    }
-    const Vec3& piece_extent(std::uint32_t body, std::uint32_t shape) const {
-        return scene_.piece_extents[scene_.piece_starts[body] + shape];
     }
 
     // What is found does not depend on what is added, so that it may be found in any order. False: there is
@@ -136,24 +133,25 @@ private:
             for (std::uint32_t j = 0; j < shapes_b; ++j) {
                 Piece piece_b;
                 if (with_collider) {
-                    piece_b = piece_of_collider(body_b, collider_of(other), body_a.position);
+                    piece_b = piece_of_collider(body_b, collider_of(world_, other), body_a.position);
                     if (piece_b.kind != LKS_SHAPE_PLANE &&
-                        passes_by(saturating_subtract(piece_b.centre, piece(a, i).centre), way,
-                                  room_around(piece_extent(a, i), extent(piece_b), room))) {
+                        passes_by(saturating_subtract(piece_b.centre, scene_.piece(a, i).centre), way,
+                                  room_around(scene_.piece_extent(a, i), extent(piece_b), room))) {
                         continue;
                     }
                 } else {
-                    const Vec3 centre = piece(other, j).centre + between;
-                    if (passes_by(saturating_subtract(centre, piece(a, i).centre), way,
-                                  room_around(piece_extent(a, i), piece_extent(other, j), room))) {
+                    const Vec3 centre = scene_.piece(other, j).centre + between;
+                    if (passes_by(
+                            saturating_subtract(centre, scene_.piece(a, i).centre), way,
+                            room_around(scene_.piece_extent(a, i), scene_.piece_extent(other, j), room))) {
                         continue;
                     }
-                    piece_b = piece(other, j);
+                    piece_b = scene_.piece(other, j);
                     piece_b.centre = centre;
                 }
                 FoundContact found;
                 found.key = {a, other, i * LKS_MAX_BODY_SHAPES + j};
-                if (touches({piece(a, i), piece_b}, {body_a, body_b}, way, spins, found)) {
+                if (touches({scene_.piece(a, i), piece_b}, {body_a, body_b}, way, spins, found)) {
                     use(found);
                 }
             }
@@ -162,25 +160,21 @@ private:
 
     // How far the points of a collider that turns go at most.
     std::int64_t collider_turns(const Body& body, std::uint32_t other) const {
-        if (body.angular_velocity == Vec3{0, 0, 0} && !collider_of(other).rotates()) {
+        if (body.angular_velocity == Vec3{0, 0, 0} && !collider_of(world_, other).rotates()) {
             return 0;
         }
-        const Shape& shape = collider_of(other).shape;
+        const Shape& shape = collider_of(world_, other).shape;
         const bool plane = shape.kind == LKS_SHAPE_PLANE;
         const std::int64_t lever = plane ? LKS_FIXED(64) : world_from_coordinate(bounding_radius(shape, 0));
         // A collider turns by a quarter at most in a tick.
         return 2 * lever;
     }
 
-    const ColliderState& collider_of(std::uint32_t other) const {
-        return world_.colliders[other & ~other_is_collider].collider;
-    }
-
     Surface surface_of(std::uint32_t other) const {
         if (other < other_is_collider) {
             return scene_.descriptions[other].surface;
         }
-        const ColliderState& collider = collider_of(other);
+        const ColliderState& collider = collider_of(world_, other);
         return {collider.static_friction, collider.dynamic_friction, collider.restitution};
     }
 
@@ -244,7 +238,7 @@ private:
             const std::int64_t closing = closing_at(manifold, manifold.points[i], a, b);
             // What comes may speed up on its way.
             const std::int64_t way = std::max<std::int64_t>(closing + closing / 4, 0);
-            if ((carried || closing > per_tick(gentle_speed)) &&
+            if ((carried || closing > per_tick(gentle_speed, world_.rate)) &&
                 manifold.points[i].separation <= touching_distance + way) {
                 wake(a.asleep != 0 ? a : b);
                 woken_ = true;
@@ -258,9 +252,8 @@ private:
     std::int64_t closing_at(const Manifold& manifold, const ManifoldPoint& point, const Body& a,
                             const Body& b) const {
         const Vec3 between = saturating_subtract(b.position, a.position);
-        const Vec3 speed_a = velocity_at(a, point.core_a);
-        const Vec3 speed_b = velocity_at(b, saturating_subtract(point.core_b, between));
-        return per_tick(-fixed::dot(manifold.normal, saturating_subtract(speed_b, speed_a)));
+        const Levers levers{point.core_a, saturating_subtract(point.core_b, between)};
+        return per_tick(closing_speed(manifold.normal, levers, {a.speeds(), b.speeds()}), world_.rate);
     }
 
     lks_world& world_;
@@ -273,8 +266,15 @@ private:
 } // namespace
 
 Body& other_body(RigidScene& scene, std::uint32_t other) {
-    return other >= other_is_collider ? scene.collider_bodies[other & ~other_is_collider]
-                                      : scene.bodies[other];
+    return body_of(scene, other);
+}
+
+const Body& other_body(const RigidScene& scene, std::uint32_t other) {
+    return body_of(scene, other);
+}
+
+const ColliderState& collider_of(const lks_world& world, std::uint32_t other) {
+    return world.colliders[other & ~other_is_collider].collider;
 }
 
 void place_collider_bodies(lks_world& world) {

@@ -15,7 +15,9 @@ void find_contacts(lks_world& world, Team* team);
 // look for them; whom a dynamic one touches is woken by the search.
 void wake_touched(lks_world& world, std::uint32_t body);
 
-// The body that a contact's or a pair's second number names.
+// The body that a contact's or a pair's second number names; the collider, if it is one.
 Body& other_body(RigidScene& scene, std::uint32_t other);
+const Body& other_body(const RigidScene& scene, std::uint32_t other);
+const ColliderState& collider_of(const lks_world& world, std::uint32_t other);
 
 } // namespace lks

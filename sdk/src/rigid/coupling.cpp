@@ -4,6 +4,7 @@
 
 #include "collide/filter.h"
 #include "collide/saturation.h"
+#include "rigid/ways.h"
 
 namespace lks {
 namespace {
@@ -56,10 +57,6 @@ public:
 private:
     static constexpr std::uint32_t object_flag = 0x80000000u;
 
-    std::int64_t per_tick(std::int64_t speed) const {
-        return speed / static_cast<std::int64_t>(world_.rate.ticks_per_second);
-    }
-
     void find_pairs() {
         scene_.overlaps.clear();
         scene_.boxed.clear();
@@ -97,7 +94,8 @@ private:
 
     // However it turns.
     Box box_of_body(const Body& body, const BodyDescription& description) const {
-        const std::int64_t speed = body.is_awake() ? per_tick(sum_of_magnitudes(body.velocity)) : 0;
+        const std::int64_t speed =
+            body.is_awake() ? per_tick(sum_of_magnitudes(body.velocity), world_.rate) : 0;
         const std::int64_t reach = description.radius + near_distance + 2 * speed + fall_;
         const auto low = [reach](std::int64_t p, std::int64_t q) {
             return saturating_subtract(std::min(p, q), reach);

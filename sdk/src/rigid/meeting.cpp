@@ -32,7 +32,7 @@ public:
           depth_(std::min(greatest_depth, (thickness(a) + thickness(b)) / 4)) {}
 
     void run() {
-        look(0);
+        collide(a_, b_, margin_, side_, out_);
         if (!goes_in()) {
             return;
         }

@@ -6,6 +6,7 @@
 #include "collide/plane_motion.h"
 #include "collide/saturation.h"
 #include "memory/sort_numbers.h"
+#include "rigid/contact_search.h"
 #include "rigid/piece_bounds.h"
 #include "rigid/placed_pieces.h"
 #include "rigid/ways.h"
@@ -39,10 +40,6 @@ public:
     }
 
 private:
-    std::int64_t per_tick(std::int64_t speed) const {
-        return speed / static_cast<std::int64_t>(world_.rate.ticks_per_second);
-    }
-
     // Its shapes around its centre of mass, and how far they go beside its velocity.
     void place_pieces() {
         scene_.pieces.clear();
@@ -59,7 +56,8 @@ private:
                 scene_.pieces.push_reserved(placed);
                 scene_.piece_extents.push_reserved(extent(placed));
             }
-            scene_.travels.push_reserved(per_tick(spin_speed(body, description.radius)) + fall(i));
+            scene_.travels.push_reserved(per_tick(spin_speed(body, description.radius), world_.rate) +
+                                         fall(i));
             scene_.ways.push_reserved(way_in(body.velocity, world_.rate.ticks_per_second));
         }
     }
@@ -70,16 +68,10 @@ private:
             return 0;
         }
         const std::int64_t step = sum_of_magnitudes(scene_.ticks[index].gravity_step);
-        const std::int64_t way = per_tick(fixed::saturate_to_int64(
-            fixed::multiply_signed(step, static_cast<std::int64_t>(world_.rate.substeps))));
+        const std::int64_t speed = fixed::saturate_to_int64(
+            fixed::multiply_signed(step, static_cast<std::int64_t>(world_.rate.substeps)));
+        const std::int64_t way = per_tick(speed, world_.rate);
         return std::max<std::int64_t>(0, way - near_distance);
-    }
-
-    const Piece& piece(std::uint32_t body, std::uint32_t shape) const {
-        return scene_.pieces[scene_.piece_starts[body] + shape];
-    }
-    const Vec3& piece_extent(std::uint32_t body, std::uint32_t shape) const {
-        return scene_.piece_extents[scene_.piece_starts[body] + shape];
     }
 
     // A body's box in this tick, with half of the room of a pair.
@@ -89,8 +81,8 @@ private:
         const std::int64_t room = near_distance / 2 + scene_.travels[index] + aside(sum_of_magnitudes(way));
         Box box{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
         for (std::uint32_t i = 0; i < scene_.descriptions[index].shape_count; ++i) {
-            const Vec3 reach = piece_extent(index, i) + Vec3{room, room, room};
-            const Vec3 centre = body.position + piece(index, i).centre;
+            const Vec3 reach = scene_.piece_extent(index, i) + Vec3{room, room, room};
+            const Vec3 centre = body.position + scene_.piece(index, i).centre;
             include(box, centre, reach);
             include(box, saturating_add(centre, way), reach);
             if (!body.is_dynamic()) {
@@ -166,8 +158,8 @@ private:
     bool may_collide(std::uint32_t a, std::uint32_t b) const {
         const Body& body = scene_.bodies[a];
         if (b >= other_is_collider) {
-            return body.is_dynamic() && (body.is_active() || collider_of(b).moves()) &&
-                   filters_meet(scene_.descriptions[a].filter, collider_of(b).filter);
+            return body.is_dynamic() && (body.is_active() || collider_of(world_, b).moves()) &&
+                   filters_meet(scene_.descriptions[a].filter, collider_of(world_, b).filter);
         }
         const Body& other = scene_.bodies[b];
         if ((!body.is_dynamic() && !other.is_dynamic()) || (!body.is_active() && !other.is_active())) {
@@ -177,10 +169,6 @@ private:
             return false;
         }
         return filters_meet(scene_.descriptions[a].filter, scene_.descriptions[b].filter);
-    }
-
-    const ColliderState& collider_of(std::uint32_t other) const {
-        return world_.colliders[other & ~other_is_collider].collider;
     }
 
     lks_world& world_;

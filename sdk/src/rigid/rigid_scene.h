@@ -165,6 +165,14 @@ struct RigidScene {
     void follow_joints();
     // By a joint whose bodies don't collide; a < b.
     bool are_jointed(std::uint32_t a, std::uint32_t b) const;
+
+    // Of a tick.
+    const Piece& piece(std::uint32_t body, std::uint32_t shape) const {
+        return pieces[piece_starts[body] + shape];
+    }
+    const fixed::Vec3& piece_extent(std::uint32_t body, std::uint32_t shape) const {
+        return piece_extents[piece_starts[body] + shape];
+    }
     // Those of an object.
     std::span<RopeLoad> rope_loads_of(std::uint32_t object);
     std::span<const RopeLoad> rope_loads_of(std::uint32_t object) const;

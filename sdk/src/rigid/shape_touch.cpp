@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
+#include "rigid/contact_search.h"
 #include "rigid/meeting.h"
 #include "rigid/piece_bounds.h"
 #include "rigid/placed_pieces.h"
@@ -93,19 +94,19 @@ bool touches(const PiecePair& pieces, const BodyPair& bodies, const Vec3& way, s
 void find_points(const lks_world& world, Contact& contact, const Direction& side) {
     const RigidScene& scene = world.rigid;
     const Body& a = scene.bodies[contact.key.body_a];
-    const bool with_collider = contact.key.other >= other_is_collider;
-    const std::uint32_t index = contact.key.other & ~other_is_collider;
-    const Body& b = with_collider ? scene.collider_bodies[index] : scene.bodies[index];
+    const std::uint32_t other = contact.key.other;
+    const bool with_collider = other >= other_is_collider;
+    const Body& b = other_body(scene, other);
     const BodyDescription& description = scene.descriptions[contact.key.body_a];
     const BodyShape& shape_a = description.shapes[contact.key.shapes / LKS_MAX_BODY_SHAPES];
     const Piece piece_a = piece_of_body(a, shape_a, a.position);
     const Piece piece_b =
         with_collider
-            ? piece_of_collider(b, world.colliders[index].collider, a.position)
-            : piece_of_body(b, scene.descriptions[index].shapes[contact.key.shapes % LKS_MAX_BODY_SHAPES],
+            ? piece_of_collider(b, collider_of(world, other), a.position)
+            : piece_of_body(b, scene.descriptions[other].shapes[contact.key.shapes % LKS_MAX_BODY_SHAPES],
                             a.position);
     const auto n = static_cast<std::int64_t>(world.rate.substeps_per_second);
-    const std::int64_t radius_b = with_collider ? reach(piece_b) : scene.descriptions[index].radius;
+    const std::int64_t radius_b = with_collider ? reach(piece_b) : scene.descriptions[other].radius;
     const std::int64_t motion = (greatest_speed(a, description.radius) + greatest_speed(b, radius_b)) / n;
     const std::int64_t spins = (spin_speed(a, description.radius) + spin_speed(b, radius_b)) / n;
     Manifold manifold;

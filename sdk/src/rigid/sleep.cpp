@@ -244,8 +244,9 @@ void wake_islands(lks_world& world) {
 
 void fall_asleep(lks_world& world) {
     RigidScene& scene = world.rigid;
-    const std::uint32_t enough = rest_of_tick * std::max(world.rate.ticks_per_second / 2, 2u);
-    const std::uint32_t calming = enough / rest_of_tick / 3 * rest_of_tick;
+    const std::uint32_t ticks = std::max(world.rate.ticks_per_second / 2, 2u);
+    const std::uint32_t enough = rest_of_tick * ticks;
+    const std::uint32_t calming = rest_of_tick * (ticks / 3);
     mark_touched(scene);
     // A figure without a contact is an island by itself.
     const auto hangs = [&](std::size_t i) { return !scene.bodies[scene.figures[i]].figure_touched; };

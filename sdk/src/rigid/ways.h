@@ -3,8 +3,14 @@
 
 #include "collide/saturation.h"
 #include "fixed/formats.h"
+#include "solver/step_rate.h"
 
 namespace lks {
+
+// How far a speed takes it in a tick.
+constexpr std::int64_t per_tick(std::int64_t speed, const StepRate& rate) {
+    return speed / static_cast<std::int64_t>(rate.ticks_per_second);
+}
 
 // A velocity over one of n parts of a second, rounded away from zero.
 inline fixed::Vec3 way_in(const fixed::Vec3& velocity, std::int64_t n) {

@@ -15,6 +15,12 @@ using fixed::Vec3;
 
 constexpr std::uint64_t spread_one = std::uint64_t{1} << 63;
 
+// What a movement is with a share of another.
+Vec3 mean_with(std::int64_t share, const Vec3& other, const Vec3& own) {
+    return {own.x + carry(share, other.x - own.x), own.y + carry(share, other.y - own.y),
+            own.z + carry(share, other.z - own.z)};
+}
+
 class AcrossPass {
 public:
     AcrossPass(const ChainCoefficients& chain, const Kernels& kernels, const ChainWork& work, int units)
@@ -96,9 +102,7 @@ private:
         std::int64_t* const to_z = work_.gathered[2] + first;
         Vec3 behind{to_x[count], to_y[count], to_z[count]};
         for (std::uint32_t i = count; i-- > 0;) {
-            const std::int64_t share = takes[i];
-            behind = {x[i] + carry(share, behind.x - x[i]), y[i] + carry(share, behind.y - y[i]),
-                      z[i] + carry(share, behind.z - z[i])};
+            behind = mean_with(takes[i], behind, {x[i], y[i], z[i]});
             to_x[i] = behind.x;
             to_y[i] = behind.y;
             to_z[i] = behind.z;
@@ -114,9 +118,7 @@ private:
         const std::uint32_t count = count_;
         Vec3 near{x[0], y[0], z[0]};
         for (std::uint32_t i = 1; i <= count; ++i) {
-            const std::int64_t share = gives[i - 1];
-            near = {x[i] + carry(share, near.x - x[i]), y[i] + carry(share, near.y - y[i]),
-                    z[i] + carry(share, near.z - z[i])};
+            near = mean_with(gives[i - 1], near, {x[i], y[i], z[i]});
             x[i] = near.x;
             y[i] = near.y;
             z[i] = near.z;
