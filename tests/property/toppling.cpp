@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "support/bodies.h"
@@ -11,7 +12,7 @@ using namespace support;
 
 namespace {
 
-constexpr double radian = 180 / 3.14159265358979;
+constexpr double degree = std::numbers::pi / 180;
 
 // Thirty in a row, the first of which is pushed: the ticks until each leans by 18 degrees.
 std::vector<int> topple_row(double push, std::uint32_t substeps, bool sleeps) {
@@ -38,26 +39,31 @@ std::vector<int> topple_row(double push, std::uint32_t substeps, bool sleeps) {
     return ticks;
 }
 
+// -1: it is not, within five seconds.
+int ticks_until_below(World& world, lks_body_id body, double height) {
+    for (int tick = 1; tick <= 300; ++tick) {
+        world.step();
+        if (state_of(world, body).position.y < height) {
+            return tick;
+        }
+    }
+    return -1;
+}
+
 // When a slab that is let go beyond its balance lies, or -1.
 int fall_of_slab(double half_height, double degrees_beyond, bool sleeps) {
     World world(world_def(60, 8));
     add_ground(world, 0.9);
     const double half_width = half_height / 10;
-    const double lean = std::atan(0.1) + degrees_beyond / radian;
+    const double lean = std::atan(0.1) + degrees_beyond * degree;
     lks_body_def def = lks_default_body_def();
     def.static_friction = def.dynamic_friction = fixed(0.9);
     def.never_sleeps = sleeps ? 0 : 1;
-    def.transform.rotation = about(0, 0, 1, -lean * radian);
+    def.transform.rotation = about(0, 0, 1, -lean / degree);
     const double height = half_height * std::cos(lean) + half_width * std::sin(lean);
     const lks_body_id slab =
         add_body(world, box_shape(half_width, half_height, half_height / 2), fixed(0, height, 0), def);
-    for (int tick = 1; tick <= 300; ++tick) {
-        world.step();
-        if (state_of(world, slab).position.y < 0.3 * half_height) {
-            return tick;
-        }
-    }
-    return -1;
+    return ticks_until_below(world, slab, 0.3 * half_height);
 }
 
 // When a ball that lies beside the top of another has fallen off it, or -1.
@@ -72,13 +78,7 @@ int fall_of_ball(double beside, bool sleeps) {
     def.never_sleeps = sleeps ? 0 : 1;
     const double height = 0.2 + std::sqrt(0.4 * 0.4 - beside * beside);
     const lks_body_id ball = add_body(world, ball_shape(0.2), fixed(beside, height, 0), def);
-    for (int tick = 1; tick <= 300; ++tick) {
-        world.step();
-        if (state_of(world, ball).position.y < 0.25) {
-            return tick;
-        }
-    }
-    return -1;
+    return ticks_until_below(world, ball, 0.25);
 }
 
 } // namespace

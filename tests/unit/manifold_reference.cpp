@@ -107,6 +107,13 @@ double distance_of(const lks::Manifold& fixed_point, const lks::Piece& a, const 
                                                      reference::Vector3<Scalar>(units_of(side))));
 }
 
+// After so many of 512 parts of its way.
+lks::Piece after_part(lks::Piece piece, const lks::fixed::Vec3& way, std::int64_t part) {
+    piece.centre =
+        piece.centre + lks::fixed::Vec3{way.x * part / 512, way.y * part / 512, way.z * part / 512};
+    return piece;
+}
+
 // The least gap on the way, and how far along it is.
 struct Closest {
     std::int64_t gap = INT64_MAX;
@@ -116,9 +123,7 @@ Closest closest_on_way(const lks::Piece& a, const lks::Piece& b, const lks::fixe
                        std::int64_t margin, std::int64_t depth) {
     Closest closest;
     for (std::int64_t part = 0; part <= 512; ++part) {
-        lks::Piece moved = b;
-        moved.centre =
-            b.centre + lks::fixed::Vec3{way.x * part / 512, way.y * part / 512, way.z * part / 512};
+        const lks::Piece moved = after_part(b, way, part);
         lks::Manifold found{};
         lks::collide(a, moved, margin, lks::no_side, found);
         closest.gap = std::min(closest.gap, found.gap);
@@ -240,10 +245,7 @@ TEST_CASE("what moves touches with the normal that it meets with, and what passe
         } else if (closest.gap < -2 * depth) {
             ++meeting;
             // Where it has just gone in that far.
-            lks::Piece moved = b;
-            const std::int64_t part = closest.first_deep;
-            moved.centre =
-                b.centre + lks::fixed::Vec3{way.x * part / 512, way.y * part / 512, way.z * part / 512};
+            const lks::Piece moved = after_part(b, way, closest.first_deep);
             lks::Manifold there{};
             lks::collide(a, moved, margin, lks::no_side, there);
             CHECK(closing > 0);
