@@ -1,7 +1,8 @@
 /* Lockstitch: linkage, versions, result codes, and what the caller provides (memory, log).
  *
- * Thread rule for the whole library: a world may be used by one thread at a time; different worlds are
- * independent of each other. Assets are immutable, and any number of threads may use them at once.
+ * Thread rule for the whole library: a world may be used by one thread at a time, but for queries, of which
+ * lockstitch/query.h says more; different worlds are independent of each other. Assets are immutable, and any
+ * number of threads may use them at once.
  */
 #ifndef LOCKSTITCH_BASE_H
 #define LOCKSTITCH_BASE_H

@@ -52,9 +52,10 @@ typedef enum lks_event_kind {
 typedef struct lks_event {
     uint32_t kind; /* an lks_event_kind */
     uint32_t reserved;
-    uint64_t tick;            /* in which it happened */
-    lks_body_id body_a;       /* the body, or the one with the lower index; generation 0: none */
-    lks_body_id body_b;       /* generation 0: none, or a collider */
+    uint64_t tick;      /* in which it happened */
+    lks_body_id body_a; /* the body; of a contact the one with the lower index, of a joint its body_a;
+                           generation 0: none */
+    lks_body_id body_b; /* a contact's other body, a joint's body_b; generation 0: none, or a collider */
     lks_collider_id collider; /* what body_a touches; generation 0: none */
     lks_joint_id joint;       /* that broke */
     lks_attachment_id attachment;
@@ -72,10 +73,11 @@ typedef struct lks_event {
     lks_vec3 normal; /* of a contact or particles, out of body_a there, of length one; else 0 */
 } lks_event;
 
-/* From now on. `kinds` is made of LKS_EVENT_BITs, 0: none. `least_impulse` (N·s, 0 .. 8000000) is the
- * threshold of LKS_EVENT_CONTACT_HIT, _LOADED and _UNLOADED and of LKS_EVENT_PARTICLES_PUSHED; with 0 every
- * contact that begins is a hit, and every one that touches is loaded. At most `capacity` (1 ..
- * LKS_MAX_EVENTS) are kept of a call that runs ticks; the rest is counted (lost_events). */
+/* From now on; refused in a tick hook. `kinds` is made of LKS_EVENT_BITs, 0: none. `least_impulse` (N·s, 0 ..
+ * 8000000) is the threshold of LKS_EVENT_CONTACT_HIT, _LOADED and _UNLOADED and of
+ * LKS_EVENT_PARTICLES_PUSHED; with 0 every contact that begins is a hit, and every one that touches is
+ * loaded. At most `capacity` (1 .. LKS_MAX_EVENTS) are kept of a call that runs ticks; the rest is counted
+ * (lost_events). */
 LKS_API lks_result lks_world_record_events(lks_world* world, uint32_t kinds, lks_fixed least_impulse,
                                            uint32_t capacity);
 /* Of the ticks that the last lks_world_step or lks_world_advance ran. Valid until the next one, until a load,

@@ -2,8 +2,9 @@
  * colliders, bodies and the particles of cloths and ropes, where they are at the end of the last tick.
  *
  * Everything is fixed-point and in a canonical order: the same world gives the same answer everywhere.
- * Queries only read; any number of threads may ask a world that nobody changes. The work is linear in what
- * the world holds.
+ * Queries only read: any number of threads may ask a world that nobody changes. But a refused one writes the
+ * world's last error and calls its log, so only queries that are not refused may run side by side. The work
+ * is linear in what the world holds.
  *
  * Method: the exact distance to each convex shape; a ray goes from tangent plane to tangent plane, which is
  * Newton's method on the distance along it.

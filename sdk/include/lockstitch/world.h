@@ -20,8 +20,8 @@ typedef enum lks_excess_time {
 
 /* Called before each tick, by lks_world_step and lks_world_advance alike: the place to apply this tick's
  * inputs, so that they meet the same tick whatever the frame rate. `tick` is the number of ticks done so far.
- * It may use the world freely, but for lks_world_step, lks_world_advance, lks_world_load and
- * lks_world_destroy, which are refused there. */
+ * It may use the world freely, but for lks_world_step, lks_world_advance, lks_world_load,
+ * lks_world_record_events and lks_world_destroy, which are refused there. */
 typedef struct lks_tick_hook {
     void (*call)(void* user, lks_world* world, uint64_t tick); /* null: none */
     void* user;
