@@ -55,7 +55,11 @@ LKS_API const char* lks_result_text(lks_result result);
 
 #define LKS_MESSAGE_CAPACITY 256
 
-/* The sentence that belongs to a failed call. `message` is always terminated. */
+/* The sentence that belongs to a failed call; `message` is always terminated. Of a call on a world it is the
+ * world's last error, of one that creates a world or an asset it goes to the definition's `error`. None
+ * comes of lks_asset_triangles, lks_asset_constraint, lks_humanoid, lks_spider and lockstitch/authoring.h,
+ * nor where it has no place: the world or the definition is null, or the one with `error` has a wrong size.
+ */
 typedef struct lks_error {
     int32_t result; /* an lks_result */
     char message[LKS_MESSAGE_CAPACITY];
@@ -63,8 +67,9 @@ typedef struct lks_error {
 
 /* The caller's memory. Both functions null: the C library's. `allocate` gets a size > 0 and a power of
  * two ≥ 8 as alignment, and returns null when there is no memory; `release` gets back what it returned,
- * with the same size. Called only by calls that create, add, remove, pin, load or release, never by a
- * step. An asset keeps a copy of its allocator until its last user lets go of it. */
+ * with the same size. Called only by calls that create, destroy, add, remove, pin, load, register or release,
+ * and by lks_world_record_events, never by a step. A world's own threads take their memory from the C library
+ * instead. An asset keeps a copy of its allocator until its last user lets go of it. */
 typedef struct lks_allocator {
     void* (*allocate)(void* user, size_t size, size_t alignment);
     void (*release)(void* user, void* memory, size_t size);
@@ -73,7 +78,9 @@ typedef struct lks_allocator {
 
 typedef enum lks_log_level { LKS_LOG_INFO = 0, LKS_LOG_WARNING = 1, LKS_LOG_ERROR = 2 } lks_log_level;
 
-/* Receives each failed call's sentence, and warnings. Must not call back into the same world. */
+/* Receives the sentence of each failed call on its world, as LKS_LOG_ERROR: nothing is sent at the other
+ * levels yet. Those of lks_world_create and of assets go to the definition's `error` alone. Must not call
+ * back into the same world. */
 typedef struct lks_log {
     void (*write)(void* user, lks_log_level level, const char* message);
     void* user;

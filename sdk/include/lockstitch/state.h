@@ -31,8 +31,8 @@ LKS_API lks_result lks_world_save(const lks_world* world, void* memory, size_t c
 /* Replaces the whole state. The world must have the image's tick rate, substeps and iterations, and must know
  * the image's assets: it knows every asset that it was given by lks_world_add_object or
  * lks_world_register_asset. Ids saved with the image are valid again afterwards. The clock of
- * lks_world_advance is left alone. `memory` is aligned to 8 bytes. Allocates only where the world has not the
- * objects of the image already. */
+ * lks_world_advance is left alone. `memory` is aligned to 8 bytes. Allocates only what the world lacks:
+ * objects of the image, and room for its colliders, bodies, joints, attachments and pins. */
 LKS_API lks_result lks_world_load(lks_world* world, const void* memory, size_t size);
 
 /* Makes an asset known, for images that need it. The world holds it until it is destroyed. */
