@@ -68,23 +68,24 @@ typedef enum lks_constraint_family {
  * opposite pairs bend. Of two constraints between the same two vertices the first is kept. An edge of three
  * or more triangles (non-manifold) joins its first triangle's opposite vertex with each other one's. Refused:
  * a vertex in no triangle, zero-length edges, triangles without area (twice the area below 1e-9 of the
- * longest side squared), the same triangle twice (in whatever winding), constraints longer than 100 m.
+ * longest side squared), the same triangle twice (in whatever winding); of grids, too, constraints longer
+ * than 100 m.
  */
 typedef struct lks_cloth_def {
     uint32_t struct_size;      /* set by lks_default_cloth_def */
     uint32_t columns;          /* grid: 2 .. 4096 */
-    uint32_t rows;             /* grid: 2 .. 4096 */
+    uint32_t rows;             /* grid: 2 .. 4096; columns · rows at most LKS_MAX_VERTICES */
     uint32_t vertex_count;     /* mesh: 3 .. LKS_MAX_VERTICES */
     uint32_t triangle_count;   /* mesh: 1 .. LKS_MAX_TRIANGLES */
     uint32_t reserved;         /* 0 */
-    double width;              /* grid: metres along x, > 0 */
-    double height;             /* grid: metres along y, > 0 */
+    double width;              /* grid: metres along x, above 0 and at most 120 */
+    double height;             /* grid: metres along y, above 0 and at most 120 */
     const double* vertices;    /* mesh: vertex_count × (x, y, z), metres; read during the call only */
     const uint32_t* triangles; /* mesh: triangle_count × 3 vertex indices, counter-clockwise from the front */
     /* Exactly one of these three is given; the others are 0 or null. Each vertex must come to 1e-8 .. 1e6 kg.
      */
-    double mass;                 /* kg, spread by area */
-    double area_density;         /* kg/m² */
+    double mass;                 /* kg, spread by area; 1e-15 .. 1e13 */
+    double area_density;         /* kg/m², 1e-15 .. 1e13 */
     const double* vertex_masses; /* kg, one a vertex */
     lks_distance_material stretch;
     lks_distance_material shear;
@@ -124,7 +125,8 @@ typedef enum lks_rope_solver {
 #define LKS_MAX_DIRECT_SEGMENTS 16384u
 
 /* A rope: from a length (straight along local +x from the origin, `segments` equal parts) or from a polyline
- * (point_count > 0; one segment between each two points). Bend constraints join points two apart. */
+ * (point_count > 0; one segment between each two points). Bend constraints join points two apart. Refused:
+ * neighbouring points in the same place, constraints longer than 100 m. */
 typedef struct lks_rope_def {
     uint32_t struct_size; /* set by lks_default_rope_def */
     uint32_t segments;    /* 1 .. 1048575 */
@@ -134,8 +136,8 @@ typedef struct lks_rope_def {
     const double* points; /* polyline: point_count × (x, y, z), metres; read during the call only */
     /* Exactly one of these three is given; the others are 0 or null. Each point must come to 1e-8 .. 1e6 kg.
      */
-    double mass;                 /* kg, spread by length */
-    double linear_density;       /* kg/m */
+    double mass;                 /* kg, spread by length; 1e-15 .. 1e13 */
+    double linear_density;       /* kg/m, 1e-15 .. 1e13 */
     const double* vertex_masses; /* kg, one a point */
     lks_distance_material stretch;
     lks_distance_material bend; /* needs at least 2 segments */

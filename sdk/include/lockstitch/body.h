@@ -44,7 +44,7 @@ typedef struct lks_body_shape {
 
 typedef struct lks_body_def {
     uint32_t struct_size;      /* set by lks_default_body_def */
-    uint32_t kind;             /* an lks_body_kind */
+    uint32_t kind;             /* an lks_body_kind; of a kinematic body velocities are ignored */
     lks_transform transform;   /* of the body's frame; position within ±8,388,000 m */
     lks_vec3 velocity;         /* of the centre of mass, m/s, each axis within the speed limit */
     lks_vec3 angular_velocity; /* rad/s in world axes, each axis within the spin limit */
@@ -86,6 +86,7 @@ LKS_API lks_result lks_body_set_transform(lks_world* world, lks_body_id body, lk
 /* m/s of the centre of mass, and rad/s, in world axes. Either may be null. */
 LKS_API lks_result lks_body_velocity(const lks_world* world, lks_body_id body, lks_vec3* velocity,
                                      lks_vec3* angular_velocity);
+/* Each axis within the speed limit and the spin limit. Wakes it. LKS_ERROR_UNSUPPORTED if it is kinematic. */
 LKS_API lks_result lks_body_set_velocity(lks_world* world, lks_body_id body, lks_vec3 velocity,
                                          lks_vec3 angular_velocity);
 /* N·s at a point of the world within 64 m of the body. A kinematic body takes none: the call succeeds and
@@ -93,7 +94,7 @@ LKS_API lks_result lks_body_set_velocity(lks_world* world, lks_body_id body, lks
 LKS_API lks_result lks_body_apply_impulse(lks_world* world, lks_body_id body, lks_vec3 impulse,
                                           lks_vec3 point);
 /* Where a kinematic body is to be at the end of the next tick; it gets there evenly over the substeps and
- * rests there until the next call. At most 100 m and 90° a tick. */
+ * rests there until the next call. At most 100 m and 90° a tick. LKS_ERROR_UNSUPPORTED for a dynamic body. */
 LKS_API lks_result lks_body_move_to(lks_world* world, lks_body_id body, lks_transform target);
 
 /* An lks_body_kind. What becomes dynamic keeps the velocity that it was moved with; what becomes kinematic

@@ -75,7 +75,8 @@ LKS_API lks_result lks_object_set_velocity(lks_world* world, lks_object_id objec
  * nothing. */
 LKS_API lks_result lks_object_apply_impulse(lks_world* world, lks_object_id object, uint32_t vertex,
                                             lks_vec3 impulse);
-/* The same impulse per kilogram for every free vertex: a change of velocity, m/s. */
+/* The same impulse per kilogram for every free vertex: a change of velocity, m/s, each axis within the speed
+ * limit. */
 LKS_API lks_result lks_object_add_velocity(lks_world* world, lks_object_id object, lks_vec3 velocity);
 
 /* Elsewhere at once. Nothing is hit on the way and no speed comes of it: the next tick begins there, and
@@ -107,7 +108,8 @@ LKS_API lks_result lks_object_set_positions(lks_world* world, lks_object_id obje
  * break force holds at a kinematic body or a pinned vertex can't be pinned. */
 LKS_API lks_result lks_object_pin(lks_world* world, lks_object_id object, uint32_t vertex);
 LKS_API lks_result lks_object_unpin(lks_world* world, lks_object_id object, uint32_t vertex);
-/* Where the vertex is to be at the end of the next tick, in the world, metres. */
+/* Where the vertex is to be at the end of the next tick, in the world, metres, each axis within ±8,388,000 m.
+ * What is not within ±64 m of the object's origin is clamped to that and counted (target_clamps). */
 LKS_API lks_result lks_object_set_pin_target(lks_world* world, lks_object_id object, uint32_t vertex,
                                              lks_vec3 target);
 LKS_API uint32_t lks_object_pin_count(const lks_world* world, lks_object_id object);

@@ -57,10 +57,11 @@ LKS_API lks_query lks_default_query(void);
  * of which the first `capacity` are written; `hits` may be null where that is 0. */
 LKS_API lks_result lks_world_cast(const lks_world* world, const lks_query* query, lks_vec3 from, lks_vec3 to,
                                   lks_hit* hits, uint32_t capacity, uint32_t* count);
-/* What lies within the query's radius of a point: colliders, bodies, particles, each by index. */
+/* What lies within the query's radius of a point (within ±8,388,000 m on each axis): colliders, bodies,
+ * particles, each by index. */
 LKS_API lks_result lks_world_overlap(const lks_world* world, const lks_query* query, lks_vec3 centre,
                                      lks_hit* hits, uint32_t capacity, uint32_t* count);
-/* The nearest of them; `found` is 0 where there is none. */
+/* The nearest of them; the point has the same range. `found` is 0 where there is none. */
 LKS_API lks_result lks_world_closest(const lks_world* world, const lks_query* query, lks_vec3 point,
                                      lks_hit* hit, uint32_t* found);
 

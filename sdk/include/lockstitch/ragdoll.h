@@ -19,10 +19,12 @@ extern "C" {
 typedef struct lks_bone {
     uint32_t parent;     /* an earlier bone, or LKS_NO_PARENT for the first one, the root */
     uint32_t joint_kind; /* an lks_joint_kind: ball, hinge or fixed; of the root none */
-    /* Shapes, mass, surface, filter. Its transform is the bone's in the ragdoll's frame, in the rest pose;
-     * velocities are ignored. */
+    /* Shapes, mass, surface, filter. Its transform is the bone's in the ragdoll's frame, in the rest pose,
+     * position within ±30 m; velocities are ignored. At the ragdoll's scale shapes and mass must be in the
+     * ranges of lks_body_def, and the joint's point within ±64 m in both bodies' frames. */
     lks_body_def body;
-    lks_transform joint_frame; /* in the ragdoll's frame, in the rest pose; its axis is local y */
+    lks_transform joint_frame; /* in the ragdoll's frame, in the rest pose, position within ±30 m; its axis is
+                                  local y */
     /* Of the joint, with the units and ranges of lks_joint_def, whatever the scale. */
     lks_fixed swing_limit;   /* degrees; 180: none */
     lks_fixed swing_limit_z; /* degrees; negative: as swing_limit */
@@ -46,7 +48,7 @@ typedef struct lks_ragdoll_def {
     uint32_t struct_size; /* set by lks_default_ragdoll_def */
     uint32_t bone_count;  /* 1 .. LKS_MAX_BONES */
     const lks_bone* bones;
-    lks_transform transform; /* of the ragdoll's frame in the world */
+    lks_transform transform; /* of the ragdoll's frame in the world; it and all bones within ±8,388,000 m */
     lks_vec3 velocity;       /* of all bones, m/s, each axis within the speed limit */
     lks_fixed scale;         /* of all lengths, 0.05 .. 20; masses go with its cube */
     int32_t group;     /* of all bones' filters; 0: each bone's own. Less than zero: bones don't collide with
@@ -78,7 +80,8 @@ LKS_API lks_result lks_ragdoll_pose(const lks_world* world, const lks_body_id* b
  * wear: lks_object_teleport. */
 LKS_API lks_result lks_ragdoll_set_pose(lks_world* world, const lks_body_id* bodies, uint32_t count,
                                         const lks_transform* pose, const lks_transform* before);
-/* Kinematic bones: where they are to be at the end of the next tick, as lks_body_move_to has it. */
+/* Kinematic bones: where they are to be at the end of the next tick, as lks_body_move_to has it. More than
+ * LKS_MAX_BONES are LKS_ERROR_LIMIT. */
 LKS_API lks_result lks_ragdoll_move_to(lks_world* world, const lks_body_id* bodies, uint32_t count,
                                        const lks_transform* pose);
 /* From animation to ragdoll, and back: lks_body_set_kind of all. */
@@ -86,8 +89,9 @@ LKS_API lks_result lks_ragdoll_set_kind(lks_world* world, const lks_body_id* bod
                                         uint32_t kind);
 /* Powered: the motors of all joints turn the bones against each other as the pose has them (where it is in
  * the world does not matter), with `strength` (0 .. 100) times their bones' motor_torque, which goes with the
- * fourth power of the scale; 0: limp. `joints` and `pose` are those of lks_world_add_ragdoll; joints of
- * generation 0, such as a game sets it to where one broke, are left out. Fixed joints have no motors. */
+ * fourth power of the scale, 1,000,000 N·m at most; 0: limp. `response` is that of lks_motor, 0 .. 100 s.
+ * `joints` and `pose` are those of lks_world_add_ragdoll; joints of generation 0, such as a game sets it to
+ * where one broke, are left out. Fixed joints have no motors. */
 LKS_API lks_result lks_ragdoll_drive(lks_world* world, const lks_ragdoll_def* def, const lks_joint_id* joints,
                                      const lks_transform* pose, lks_fixed strength, lks_fixed response);
 

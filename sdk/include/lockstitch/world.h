@@ -86,7 +86,8 @@ LKS_API lks_result lks_world_step(lks_world* world);
 
 /* Runs the ticks that have become due after elapsed_ns (0 .. 10^14) more nanoseconds. Time is counted in
  * units of 1 / (tick_rate_hz · 10^9) s, so nothing drifts. ticks_run may be null. The clock (what is due, and
- * the interpolation) belongs to the view: it is no part of the state, its hash or its images. */
+ * the interpolation) belongs to the view: it is no part of the state, its hash or its images. Where so much
+ * is due already (LKS_EXCESS_TIME_KEEP) that it would overflow: LKS_ERROR_LIMIT. */
 LKS_API lks_result lks_world_advance(lks_world* world, int64_t elapsed_ns, uint32_t* ticks_run);
 
 /* How far the clock is past the last tick, as a fraction of a tick in Q0.32; just below one where
