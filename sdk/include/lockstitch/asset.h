@@ -149,20 +149,22 @@ typedef struct lks_rope_def {
 
 /* 5 m in 50 segments, 0.2 kg/m, inextensible, bend 1e-4 m/N, radius 1 cm. */
 LKS_API lks_rope_def lks_default_rope_def(void);
+/* LKS_ERROR_STRUCT_SIZE comes without a sentence, too. */
 LKS_API lks_result lks_asset_create_rope(const lks_rope_def* def, lks_asset** asset);
 
 /* Gives up the caller's hold. Worlds that know the asset keep it alive. Null is allowed. */
 LKS_API void lks_asset_release(lks_asset* asset);
 
-/* 0 for null. The fingerprint covers everything that can influence a simulation. */
+/* 0 for null, as all of these. The fingerprint covers everything that can influence a simulation. */
 LKS_API uint64_t lks_asset_fingerprint(const lks_asset* asset);
-LKS_API uint32_t lks_asset_vertex_count(const lks_asset* asset);
-LKS_API uint32_t lks_asset_constraint_count(const lks_asset* asset);
-LKS_API uint32_t lks_asset_colour_count(const lks_asset* asset);
-LKS_API uint32_t lks_asset_triangle_count(const lks_asset* asset); /* 0 for a rope */
+LKS_API uint32_t lks_asset_vertex_count(const lks_asset* asset);     /* a rope's points */
+LKS_API uint32_t lks_asset_constraint_count(const lks_asset* asset); /* of all families, without tethers */
+LKS_API uint32_t lks_asset_colour_count(const lks_asset* asset);     /* batches, of all families */
+LKS_API uint32_t lks_asset_triangle_count(const lks_asset* asset);   /* 0 for a rope */
 
 /* Writes triangle_count × 3 indices in the caller's vertex numbering and order; a grid has two triangles a
- * cell. A rope has none, and needs no buffer. */
+ * cell. A rope has none, and needs no buffer. Where index_capacity is less: LKS_ERROR_BUFFER_TOO_SMALL,
+ * without a sentence. */
 LKS_API lks_result lks_asset_triangles(const lks_asset* asset, uint32_t* indices, size_t index_capacity);
 
 /* One distance constraint, in the canonical order in which the solver visits them. */
@@ -173,6 +175,7 @@ typedef struct lks_constraint_info {
     lks_fixed rest_length; /* metres, rounded to 2^-40 */
 } lks_constraint_info;
 
+/* Constraint 0 .. constraint count - 1, else LKS_ERROR_INVALID_ARGUMENT, without a sentence. */
 LKS_API lks_result lks_asset_constraint(const lks_asset* asset, uint32_t constraint,
                                         lks_constraint_info* info);
 

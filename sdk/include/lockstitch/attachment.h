@@ -65,7 +65,9 @@ LKS_API lks_result lks_world_add_attachment(lks_world* world, const lks_attachme
                                             lks_attachment_id* attachment);
 /* Goes by itself with either side. */
 LKS_API lks_result lks_world_remove_attachment(lks_world* world, lks_attachment_id attachment);
+/* 1 while the attachment exists. */
 LKS_API uint32_t lks_world_has_attachment(const lks_world* world, lks_attachment_id attachment);
+/* How many there are; 0 for null. */
 LKS_API uint32_t lks_world_attachment_count(const lks_world* world);
 
 /* How far the two sides are apart, metres. */

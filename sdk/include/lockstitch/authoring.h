@@ -3,7 +3,7 @@
  * The conversions take a double apart bit by bit with integer operations and round to the nearest unit
  * (ties away from zero), so a literal such as 9.81 gives the same bits everywhere. Do not feed them
  * values that your game *computed* in floating point: those may differ between two machines, and then
- * so will the simulation. Results of lks_fixed arithmetic are safe.
+ * so will the simulation. Results of lks_fixed arithmetic are safe. Calls that fail leave no sentence.
  */
 #ifndef LOCKSTITCH_AUTHORING_H
 #define LOCKSTITCH_AUTHORING_H

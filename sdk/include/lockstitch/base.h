@@ -89,6 +89,7 @@ typedef struct lks_log {
 /* The version of the library that was linked, as major * 10000 + minor * 100 + patch; compare it with
  * the LKS_VERSION_* of the headers. */
 LKS_API uint32_t lks_version(void);
+/* LKS_SOLVER_VERSION of the library that was linked. */
 LKS_API uint32_t lks_solver_version(void);
 
 #ifdef __cplusplus

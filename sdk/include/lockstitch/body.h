@@ -72,7 +72,9 @@ LKS_API lks_body_shape lks_default_body_shape(void);
 LKS_API lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_body_id* body);
 /* Joints and attachments on it are removed with it. */
 LKS_API lks_result lks_world_remove_body(lks_world* world, lks_body_id body);
+/* 1 while the body exists. */
 LKS_API uint32_t lks_world_has_body(const lks_world* world, lks_body_id body);
+/* How many there are; 0 for null. */
 LKS_API uint32_t lks_world_body_count(const lks_world* world);
 
 /* The speed limit of each axis of an angular velocity in rad/s: the lower of 1000 and one a substep. */
@@ -115,6 +117,7 @@ LKS_API uint32_t lks_body_get_kind(const lks_world* world, lks_body_id body);
 LKS_API uint32_t lks_body_is_awake(const lks_world* world, lks_body_id body);
 /* With its island, from the next tick on. */
 LKS_API lks_result lks_body_wake(lks_world* world, lks_body_id body);
+/* How many bodies are awake; kinematic ones don't count. 0 for null. */
 LKS_API uint32_t lks_world_awake_body_count(const lks_world* world);
 /* Pairs of shapes, bodies' and colliders', that pushed each other at the end of the last tick, or did when
  * they fell asleep. Particles don't count. */

@@ -52,7 +52,9 @@ LKS_API lks_collider_def lks_default_collider_def(void);
  * the order of adding such colliders is part of the simulation. */
 LKS_API lks_result lks_world_add_collider(lks_world* world, const lks_collider_def* def,
                                           lks_collider_id* collider);
+/* Wakes the bodies whose filters meet its own. LKS_ERROR_STALE_ID where it was removed already. */
 LKS_API lks_result lks_world_remove_collider(lks_world* world, lks_collider_id collider);
+/* 1 while the collider exists. */
 LKS_API uint32_t lks_world_has_collider(const lks_world* world, lks_collider_id collider);
 
 /* Kinematic motion: where the collider is to be at the end of the next tick; it gets there evenly over the
@@ -63,6 +65,7 @@ LKS_API lks_result lks_collider_move_to(lks_world* world, lks_collider_id collid
 /* Puts it there at once, without a motion. */
 LKS_API lks_result lks_collider_set_transform(lks_world* world, lks_collider_id collider,
                                               lks_transform transform);
+/* Where it is, metres in the world: a target of lks_collider_move_to is reached by the next tick. */
 LKS_API lks_result lks_collider_transform(const lks_world* world, lks_collider_id collider,
                                           lks_transform* transform);
 

@@ -83,6 +83,7 @@ LKS_API lks_result lks_world_record_events(lks_world* world, uint32_t kinds, lks
 /* Of the ticks that the last lks_world_step or lks_world_advance ran. Valid until the next one, until a load,
  * and until lks_world_record_events. Never null where the count is not 0. */
 LKS_API const lks_event* lks_world_events(const lks_world* world);
+/* How many these are; 0 for null. */
 LKS_API uint32_t lks_world_event_count(const lks_world* world);
 
 #ifdef __cplusplus

@@ -102,8 +102,11 @@ LKS_API lks_joint_def lks_default_joint_def(void);
 /* Takes the lowest free index; joints are solved in the order of their indices, before contacts. Both bodies
  * are left where they are: what is apart is brought together from the next tick on. */
 LKS_API lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_joint_id* joint);
+/* Wakes both bodies. LKS_ERROR_STALE_ID where it is gone: removed, broken, or with one of its bodies. */
 LKS_API lks_result lks_world_remove_joint(lks_world* world, lks_joint_id joint);
+/* 1 while the joint exists. */
 LKS_API uint32_t lks_world_has_joint(const lks_world* world, lks_joint_id joint);
+/* How many there are; 0 for null. */
 LKS_API uint32_t lks_world_joint_count(const lks_world* world);
 
 /* How far the two points are from where the joint allows them, metres. Saturates at 8,388,608. */
@@ -122,11 +125,14 @@ LKS_API lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lk
  * a winch, and a hinge whose limits close comes back as fast as a few ticks allow. Limits that differ from
  * the present ones wake both bodies. */
 LKS_API lks_result lks_joint_set_limits(lks_world* world, lks_joint_id joint, const lks_limits* limits);
+/* The present ones, degrees and metres; swing_limit_z is negative where it is as swing_limit. */
 LKS_API lks_result lks_joint_limits(const lks_world* world, lks_joint_id joint, lks_limits* limits);
 
-/* Of a ball joint or a hinge. While it is on the joint's friction is not. A motor that differs from the
- * present one wakes both bodies, unless neither turns anything (max_torque 0). */
+/* Of a ball joint or a hinge; on others LKS_ERROR_UNSUPPORTED, unless it is off. While it is on the joint's
+ * friction is not. A motor that differs from the present one wakes both bodies, unless neither turns anything
+ * (max_torque 0). */
 LKS_API lks_result lks_joint_set_motor(lks_world* world, lks_joint_id joint, const lks_motor* motor);
+/* The present one, N·m and seconds, its target normalised; off (max_torque 0) until one is set. */
 LKS_API lks_result lks_joint_motor(const lks_world* world, lks_joint_id joint, lks_motor* motor);
 
 #ifdef __cplusplus

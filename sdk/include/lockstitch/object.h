@@ -32,6 +32,7 @@ typedef struct lks_object_def {
     lks_fixed linear_damping; /* 1/s, 0 .. 1000: velocity decays by this share a second (air) */
 } lks_object_def;
 
+/* No asset yet, at the origin, at rest, gravity factor 1, no damping, forces not recorded. */
 LKS_API lks_object_def lks_default_object_def(void);
 
 /* Takes the lowest free index. The order in which objects are added decides their indices and thereby the
@@ -42,6 +43,7 @@ LKS_API lks_result lks_world_remove_object(lks_world* world, lks_object_id objec
 
 /* 1 while the object exists. */
 LKS_API uint32_t lks_world_has_object(const lks_world* world, lks_object_id object);
+/* How many there are; 0 for null. */
 LKS_API uint32_t lks_world_object_count(const lks_world* world);
 /* The n-th object in index order, 0 ≤ n < object count. */
 LKS_API lks_result lks_world_object_at(const lks_world* world, uint32_t n, lks_object_id* object);
@@ -51,7 +53,9 @@ LKS_API const lks_asset* lks_object_asset(const lks_world* world, lks_object_id 
 /* Where the object's local frame is now. */
 LKS_API lks_result lks_object_origin(const lks_world* world, lks_object_id object, lks_vec3* origin);
 
+/* On the world's gravity, -100 .. 100, else LKS_ERROR_INVALID_ARGUMENT. */
 LKS_API lks_result lks_object_set_gravity_factor(lks_world* world, lks_object_id object, lks_fixed factor);
+/* 1/s, 0 .. 1000, else LKS_ERROR_INVALID_ARGUMENT: velocity decays by this share a second (air). */
 LKS_API lks_result lks_object_set_linear_damping(lks_world* world, lks_object_id object, lks_fixed damping);
 
 /* Positions in the world, metres, rounded to the nearest unit, half up. `count` vertices from `first`. */
@@ -112,7 +116,9 @@ LKS_API lks_result lks_object_unpin(lks_world* world, lks_object_id object, uint
  * What is not within ±64 m of the object's origin is clamped to that and counted (target_clamps). */
 LKS_API lks_result lks_object_set_pin_target(lks_world* world, lks_object_id object, uint32_t vertex,
                                              lks_vec3 target);
+/* How many vertices are pinned; 0 for a stale id. */
 LKS_API uint32_t lks_object_pin_count(const lks_world* world, lks_object_id object);
+/* 1 while the vertex is pinned; 0 for a stale id and for what is no vertex. */
 LKS_API uint32_t lks_object_is_pinned(const lks_world* world, lks_object_id object, uint32_t vertex);
 
 /* The force of one constraint in newtons at the end of the last tick (λ/h², the mean over its last substep),

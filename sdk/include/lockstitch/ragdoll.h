@@ -130,6 +130,7 @@ enum {
     LKS_SPIDER_FIRST_LEG = 2 /* thigh of leg n: 2 + 2 n, its shin: 3 + 2 n */
 };
 
+/* Their shapes and muscles too, as lks_humanoid has it. */
 LKS_API lks_result lks_spider(lks_bone bones[LKS_SPIDER_BONES], lks_body_shape shapes[LKS_SPIDER_BONES]);
 
 #ifdef __cplusplus

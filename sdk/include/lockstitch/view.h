@@ -28,6 +28,7 @@ typedef struct lks_vertex_view {
 
 #define LKS_VIEW_LAST_TICK 0xffffffffu
 
+/* The last tick, seen from the world's origin; no buffers yet, strides of 12 bytes. */
 LKS_API lks_vertex_view lks_default_vertex_view(void);
 
 /* Writes all vertices in the caller's numbering. Buffers are aligned to 4 bytes. */

@@ -105,7 +105,9 @@ LKS_API uint32_t lks_world_tick_rate(const lks_world* world);
 LKS_API uint32_t lks_world_substeps(const lks_world* world);
 LKS_API uint32_t lks_world_iterations(const lks_world* world);
 
+/* m/s², each axis within ±1000, else LKS_ERROR_INVALID_ARGUMENT. A change wakes all bodies. */
 LKS_API lks_result lks_world_set_gravity(lks_world* world, lks_vec3 gravity);
+/* The present one, m/s². */
 LKS_API lks_result lks_world_gravity(const lks_world* world, lks_vec3* gravity);
 
 /* What was clamped since creation, never silently. No part of the state. */
@@ -119,6 +121,7 @@ typedef struct lks_world_counters {
     uint64_t lost_events;     /* more than lks_world_record_events has room for */
 } lks_world_counters;
 
+/* As they are now. */
 LKS_API lks_result lks_world_get_counters(const lks_world* world, lks_world_counters* counters);
 
 /* The speed limit of each axis in m/s: the lower of 1000 m/s and 16 m a substep. */
