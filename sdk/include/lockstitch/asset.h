@@ -39,7 +39,7 @@ typedef enum lks_constraint_family {
 /* Tethers hold every vertex of a cloth within reach of its anchors: the vertices that the game is going to
  * pin (Kim, Chentanez, Müller-Fischer, "Long Range Attachments", 2012). Few sweeps don't carry the load of a
  * fine cloth to its pins, which shows as stretch; tethers do so in one step. At 20 × 1 they leave a seventh
- * of the worst stretch of a 64 × 64 cloth that hangs from two corners, for a tenth of the cost
+ * of the worst stretch of a 64 × 64 cloth that hangs from two corners, for a sixth more time
  * (docs/accuracy.md).
  *
  * A tether pulls its vertex back to where the cloth itself would let it go: along the shortest way over the
