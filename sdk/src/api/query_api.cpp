@@ -74,7 +74,7 @@ lks_result lks_world_cast(const lks_world* world, const lks_query* query, lks_ve
     }
     HitList list(hits, capacity, true);
     cast_ball(*world, *query, to_vec3(from), to_vec3(to), list);
-    *count = list.count();
+    *count = list.finish();
     return LKS_OK;
 }
 
@@ -89,7 +89,7 @@ lks_result lks_world_overlap(const lks_world* world, const lks_query* query, lks
     }
     HitList list(hits, capacity, false);
     find_within(*world, *query, to_vec3(centre), list);
-    *count = list.count();
+    *count = list.finish();
     return LKS_OK;
 }
 
@@ -105,7 +105,7 @@ lks_result lks_world_closest(const lks_world* world, const lks_query* query, lks
     lks_hit nearest{};
     HitList list(&nearest, 1, true);
     find_within(*world, *query, to_vec3(point), list);
-    *found = list.count() == 0 ? 0u : 1u;
+    *found = list.finish() == 0 ? 0u : 1u;
     if (*found != 0) {
         *hit = nearest;
     }

@@ -6,6 +6,8 @@
 #include "collide/plane_motion.h"
 #include "collide/saturation.h"
 #include "collide/trace.h"
+#include "query/near_particles.h"
+#include "query/near_way.h"
 #include "rigid/attachment.h"
 #include "rigid/body_motion.h"
 #include "rigid/placed_shape.h"
@@ -21,19 +23,21 @@ constexpr std::int64_t tolerance = std::int64_t{1} << (world_fraction_bits - 20)
 // Calls use(placed, hit) for all that the query is about; the hit says what it is.
 class Everything {
 public:
-    Everything(const lks_world& world, const lks_query& query) : world_(world), query_(query) {}
+    // The way of the query's ball, from here to there or where it is.
+    Everything(const lks_world& world, const lks_query& query, const Vec3& from, const Vec3& to)
+        : world_(world), query_(query), way_{from, to, query.radius}, box_(way_.box()),
+          halvings_(way_.halvings()) {}
 
-    // `reach` is a box around all that the query can meet.
     template <typename Use>
-    void visit(const Box& reach, const Use& use) const {
+    void visit(const Use& use) const {
         if (wants(LKS_HIT_COLLIDER)) {
             visit_colliders(use);
         }
         if (wants(LKS_HIT_BODY)) {
-            visit_bodies(reach, use);
+            visit_bodies(use);
         }
         if (wants(LKS_HIT_PARTICLE)) {
-            visit_particles(reach, use);
+            visit_particles(use);
         }
     }
 
@@ -44,7 +48,7 @@ private:
     void visit_colliders(const Use& use) const {
         for (std::uint32_t i = 0; i < world_.colliders.size(); ++i) {
             const ColliderSlot& slot = world_.colliders[i];
-            if (!slot.used || !is_asked_for(slot.collider.filter, query_.mask)) {
+            if (!slot.used || !is_asked_for(slot.collider.filter, query_.mask) || !may_meet(slot.collider)) {
                 continue;
             }
             lks_hit hit{};
@@ -56,8 +60,16 @@ private:
         }
     }
 
+    bool may_meet(const ColliderState& collider) const {
+        const Shape& shape = collider.shape;
+        const Vec3& half = shape.half_extents;
+        const std::int64_t reach =
+            world_from_coordinate(shape.radius + shape.half_length + half.x + half.y + half.z);
+        return shape.kind == LKS_SHAPE_PLANE || is_near(collider.position, reach);
+    }
+
     template <typename Use>
-    void visit_bodies(const Box& reach, const Use& use) const {
+    void visit_bodies(const Use& use) const {
         const RigidScene& scene = world_.rigid;
         for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
             const BodyDescription& d = scene.descriptions[i];
@@ -65,7 +77,7 @@ private:
             const bool ignored =
                 query_.ignored.index == id.index && query_.ignored.generation == id.generation;
             if (!scene.body_slots[i].used || !is_asked_for(d.filter, query_.mask) || ignored ||
-                !around(scene.bodies[i].position, d.radius).overlaps(reach)) {
+                !is_near(scene.bodies[i].position, d.radius)) {
                 continue;
             }
             for (std::uint32_t part = 0; part < d.shape_count; ++part) {
@@ -79,36 +91,37 @@ private:
     }
 
     template <typename Use>
-    void visit_particles(const Box& reach, const Use& use) const {
+    void visit_particles(const Use& use) const {
         for (std::uint32_t i = 0; i < world_.objects.size(); ++i) {
             const Object* object = world_.objects[i].object;
             if (object == nullptr) {
                 continue;
             }
             const std::int64_t radius = world_from_coordinate(object->asset().particle_radius);
-            for (std::uint32_t vertex = 0; vertex < object->count(); ++vertex) {
-                const Vec3 position = particle_position(*object, object->asset().vertex_to_particle[vertex]);
-                if (!around(position, radius).overlaps(reach)) {
-                    continue;
-                }
+            visit_near_particles(*object, *world_.kernels, way_, [&](std::uint32_t particle) {
                 lks_hit hit{};
                 hit.kind = LKS_HIT_PARTICLE;
-                hit.part = vertex;
+                hit.part = object->asset().particle_to_vertex[particle];
                 hit.object = {i, world_.objects[i].generation};
                 use(PlacedShape{{LKS_SHAPE_SPHERE, radius, 0, {0, 0, 0}},
-                                position,
+                                particle_position(*object, particle),
                                 fixed::to_matrix(fixed::identity_rotation())},
                     hit);
-            }
+            });
         }
     }
 
-    static Box around(const Vec3& p, std::int64_t radius) {
-        return {{p.x - radius, p.y - radius, p.z - radius}, {p.x + radius, p.y + radius, p.z + radius}};
+    // Of what lies within a radius of p.
+    bool is_near(const Vec3& p, std::int64_t radius) const {
+        const Box box{{p.x - radius, p.y - radius, p.z - radius}, {p.x + radius, p.y + radius, p.z + radius}};
+        return box_.overlaps(box) && (halvings_ == 0 || is_near_way(way_, halvings_, box));
     }
 
     const lks_world& world_;
     const lks_query& query_;
+    BallWay way_;
+    Box box_; // of all of it
+    int halvings_;
 };
 
 // A plane may be anywhere: of it the height counts alone, and that is exact.
@@ -136,11 +149,6 @@ lks_vec3 behind(const Vec3& p, const lks_vec3& normal, std::int64_t length) {
         return fixed::multiply_shift(n, length, world_fraction_bits);
     };
     return {p.x - part(normal.x), p.y - part(normal.y), p.z - part(normal.z)};
-}
-
-Box box_of_way(const Vec3& a, const Vec3& b, std::int64_t radius) {
-    return {{std::min(a.x, b.x) - radius, std::min(a.y, b.y) - radius, std::min(a.z, b.z) - radius},
-            {std::max(a.x, b.x) + radius, std::max(a.y, b.y) + radius, std::max(a.z, b.z) + radius}};
 }
 
 // Where no way is left to go, the shape is entered only if it is begun in.
@@ -172,56 +180,56 @@ bool HitList::before(const lks_hit& a, const lks_hit& b) const {
     return a.kind != b.kind ? a.kind < b.kind : index(a) != index(b) ? index(a) < index(b) : a.part < b.part;
 }
 
+// Until `finish`, those that are kept stand as a heap with the last of them in front.
 void HitList::add(const lks_hit& hit) {
-    const std::uint32_t kept = std::min(count_, capacity_);
+    const auto order = [this](const lks_hit& a, const lks_hit& b) { return before(a, b); };
+    if (count_ < capacity_) {
+        hits_[count_] = hit;
+        std::push_heap(hits_, hits_ + count_ + 1, order);
+    } else if (capacity_ > 0 && before(hit, hits_[0])) {
+        std::pop_heap(hits_, hits_ + capacity_, order);
+        hits_[capacity_ - 1] = hit;
+        std::push_heap(hits_, hits_ + capacity_, order);
+    }
     ++count_;
-    if (capacity_ == 0) {
-        return;
-    }
-    std::uint32_t place = kept;
-    while (place > 0 && before(hit, hits_[place - 1])) {
-        --place;
-    }
-    for (std::uint32_t i = std::min(kept, capacity_ - 1); i > place; --i) {
-        hits_[i] = hits_[i - 1];
-    }
-    if (place < capacity_) {
-        hits_[place] = hit;
-    }
+}
+
+std::uint32_t HitList::finish() {
+    std::sort_heap(hits_, hits_ + std::min(count_, capacity_),
+                   [this](const lks_hit& a, const lks_hit& b) { return before(a, b); });
+    return count_;
 }
 
 void cast_ball(const lks_world& world, const lks_query& query, const Vec3& from, const Vec3& to,
                HitList& hits) {
     const auto whole = static_cast<std::int64_t>(fixed::length(to - from));
-    Everything(world, query)
-        .visit(box_of_way(from, to, query.radius), [&](const PlacedShape& placed, lks_hit hit) {
-            Trace found{};
-            if (!trace_shape(placed, from, to, query.radius, found)) {
-                return;
-            }
-            const auto rest = static_cast<std::int64_t>(fixed::length(found.rest));
-            hit.distance = std::max<std::int64_t>(whole - rest, 0);
-            hit.normal = world_normal(placed, found.hit.normal);
-            const Vec3 ball = to - fixed::rotate(placed.axes, found.rest);
-            // The ball's centre, less its radius and what is between them.
-            const bool inside = found.start.distance <= 0;
-            hit.point = behind(inside ? from : ball, hit.normal, query.radius + found.hit.distance);
-            hits.add(hit);
-        });
+    Everything(world, query, from, to).visit([&](const PlacedShape& placed, lks_hit hit) {
+        Trace found{};
+        if (!trace_shape(placed, from, to, query.radius, found)) {
+            return;
+        }
+        const auto rest = static_cast<std::int64_t>(fixed::length(found.rest));
+        hit.distance = std::max<std::int64_t>(whole - rest, 0);
+        hit.normal = world_normal(placed, found.hit.normal);
+        const Vec3 ball = to - fixed::rotate(placed.axes, found.rest);
+        // The ball's centre, less its radius and what is between them.
+        const bool inside = found.start.distance <= 0;
+        hit.point = behind(inside ? from : ball, hit.normal, query.radius + found.hit.distance);
+        hits.add(hit);
+    });
 }
 
 void find_within(const lks_world& world, const lks_query& query, const Vec3& centre, HitList& hits) {
-    Everything(world, query)
-        .visit(box_of_way(centre, centre, query.radius), [&](const PlacedShape& placed, lks_hit hit) {
-            const SurfacePoint nearest = nearest_surface(placed.shape, to_local(placed, centre), 0);
-            if (nearest.distance > query.radius) {
-                return;
-            }
-            hit.distance = nearest.distance;
-            hit.normal = world_normal(placed, nearest.normal);
-            hit.point = behind(centre, hit.normal, nearest.distance);
-            hits.add(hit);
-        });
+    Everything(world, query, centre, centre).visit([&](const PlacedShape& placed, lks_hit hit) {
+        const SurfacePoint nearest = nearest_surface(placed.shape, to_local(placed, centre), 0);
+        if (nearest.distance > query.radius) {
+            return;
+        }
+        hit.distance = nearest.distance;
+        hit.normal = world_normal(placed, nearest.normal);
+        hit.point = behind(centre, hit.normal, nearest.distance);
+        hits.add(hit);
+    });
 }
 
 } // namespace lks

@@ -15,7 +15,8 @@ public:
         : hits_(hits), capacity_(capacity), nearest_first_(nearest_first) {}
 
     void add(const lks_hit& hit);
-    std::uint32_t count() const { return count_; }
+    // Behind the last: puts them in their order. How many there were.
+    std::uint32_t finish();
 
 private:
     bool before(const lks_hit& a, const lks_hit& b) const;
