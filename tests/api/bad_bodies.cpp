@@ -54,6 +54,11 @@ TEST_CASE("bodies out of range are refused") {
          },
          "half extent y -0.5"},
         {[](lks_body_def&, lks_body_shape& s) {
+             s.shape = LKS_SHAPE_BOX;
+             s.half_extents.z = 0;
+         },
+         "half extent z 0"},
+        {[](lks_body_def&, lks_body_shape& s) {
              s.shape = LKS_SHAPE_CAPSULE;
              s.half_length = fixed(-0.25);
          },
@@ -225,6 +230,23 @@ TEST_CASE("ragdolls with trees that are none are refused whole") {
     check([](Humanoid& h) { h.def.scale = fixed(25); }, "25");
     check([](Humanoid& h) { h.def.transform.rotation.w = 1; }, "quaternion");
     check([](Humanoid& h) { h.def.struct_size = 3; }, "3", LKS_ERROR_STRUCT_SIZE);
+}
+
+TEST_CASE("a ragdoll has room where its bodies have, in places that are free again, too") {
+    World world;
+    const lks_body_shape shape = ball_shape(0.1);
+    for (std::uint32_t i = 0; i < LKS_MAX_BODIES; ++i) {
+        add_body(world, shape, {});
+    }
+    const Humanoid humanoid;
+    lks_body_id bodies[LKS_HUMANOID_BONES];
+    check_refused(world, humanoid.add(world, bodies), LKS_ERROR_LIMIT, "65536 bodies", world.hash());
+    for (std::uint32_t i = 0; i < LKS_HUMANOID_BONES; ++i) {
+        REQUIRE(lks_world_remove_body(world, {1000 * i, 1}) == LKS_OK);
+    }
+    REQUIRE(humanoid.add(world, bodies) == LKS_OK);
+    CHECK(bodies[LKS_HUMANOID_BONES - 1].index == 1000 * (LKS_HUMANOID_BONES - 1));
+    CHECK(lks_world_body_count(world) == LKS_MAX_BODIES);
 }
 
 TEST_CASE("what bones bear at a scale stays within what joints can be given, and never becomes everything") {

@@ -156,8 +156,8 @@ lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
         }
     }
     const RigidScene& scene = world.rigid;
-    if (scene.bodies.size() + def.bone_count > LKS_MAX_BODIES ||
-        scene.joints.size() + def.bone_count > LKS_MAX_JOINTS) {
+    if (count_used(scene.body_slots) + def.bone_count > LKS_MAX_BODIES ||
+        count_used(scene.joint_slots) + def.bone_count - 1 > LKS_MAX_JOINTS) {
         return world.fail(LKS_ERROR_LIMIT, Sentence() << "A world holds at most " << LKS_MAX_BODIES
                                                       << " bodies and " << LKS_MAX_JOINTS << " joints.");
     }
