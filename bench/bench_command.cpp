@@ -24,6 +24,8 @@ struct Section {
 constexpr Section sections[] = {
     {snapshots_name, "save, load and hash of a 256² cloth beside memcpy"},
     {overhead_name, "a tick with next to nothing to do"},
+    {sleep_name, "humanoids that lie on the ground, asleep and awake"},
+    {queries_name, "rays, overlaps and nearest points among bodies, colliders and particles"},
     {contacts_name, "a 64² cloth lies on a collider of each kind"},
     {ragdolls_name, "100 humanoids of 12 bodies fall on a plane, beside Bullet"},
     {pile_name, "30 humanoids of 15 bodies fall into a pit, beside Bullet"},
@@ -97,6 +99,10 @@ bool measure(const std::string& part, const BenchOptions& options, Results& resu
         measure_snapshots(rounds, results);
     } else if (part == overhead_name) {
         measure_overhead(rounds, results);
+    } else if (part == sleep_name) {
+        measure_sleep(rounds, results);
+    } else if (part == queries_name) {
+        measure_queries(rounds, results);
     } else if (part == contacts_name) {
         measure_contacts(rounds, results);
     } else if (part == ragdolls_name) {

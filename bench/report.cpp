@@ -145,6 +145,10 @@ std::string markdown(const Results& results, const std::vector<Plot>& plots) {
                   [](const Result& r) { return r.unit == "GB/s"; });
     text += table(results, "Fixed cost of a tick, ns", by_variant, by_measured,
                   [](const Result& r) { return r.workload == "overhead"; });
+    text += table(results, "Humanoids on the ground, ns a tick", by_variant, by_measured,
+                  [](const Result& r) { return r.workload == "sleep"; });
+    text += table(results, "Queries, ns each", by_variant, by_measured,
+                  [](const Result& r) { return r.workload == "queries"; });
     text += table(results, "A 64² cloth that lies on a collider, ms a tick", by_measured, by_variant,
                   [](const Result& r) { return r.workload == "contacts"; });
     text +=

@@ -1,9 +1,7 @@
-#include <lockstitch/lockstitch.h>
-
 #include <cmath>
 #include <memory>
 
-#include "demand.h"
+#include "ground_world.h"
 #include "measure.h"
 #include "sections.h"
 
@@ -16,16 +14,6 @@ constexpr std::uint32_t counts[] = {1250, 2500, 5000, 10000, 20000};
 class Balls {
 public:
     explicit Balls(std::uint32_t count) {
-        lks_world_def def = lks_default_world_def();
-        def.substeps = 1;
-        lks_error error{};
-        def.error = &error;
-        demand(lks_world_create(&def, &world_), "a world", error.message);
-        lks_collider_def ground = lks_default_collider_def();
-        ground.shape = LKS_SHAPE_PLANE;
-        lks_collider_id plane{};
-        demand(lks_world_add_collider(world_, &ground, &plane), "the ground",
-               lks_world_last_error(world_)->message);
         lks_body_shape shape = lks_default_body_shape();
         shape.radius = LKS_FIXED_RATIO(1, 5);
         lks_body_def ball = lks_default_body_def();
@@ -36,21 +24,17 @@ public:
         for (std::uint32_t i = 0; i < count; ++i) {
             ball.transform.position = {LKS_FIXED_RATIO(2 * (i % edge), 5), shape.radius,
                                        LKS_FIXED_RATIO(2 * (i / edge), 5)};
-            lks_body_id id{};
-            demand(lks_world_add_body(world_, &ball, &id), "a ball", lks_world_last_error(world_)->message);
+            world_.add(ball);
         }
         for (int tick = 0; tick < 3; ++tick) {
             run();
         }
     }
-    ~Balls() { lks_world_destroy(world_); }
-    Balls(const Balls&) = delete;
-    Balls& operator=(const Balls&) = delete;
 
-    void run() const { lks_world_step(world_); }
+    void run() const { world_.tick(); }
 
 private:
-    lks_world* world_ = nullptr;
+    GroundWorld world_{1};
 };
 
 } // namespace

@@ -8,6 +8,8 @@ namespace lks_bench {
 
 inline constexpr const char* snapshots_name = "snapshots";
 inline constexpr const char* overhead_name = "overhead";
+inline constexpr const char* sleep_name = "sleep";
+inline constexpr const char* queries_name = "queries";
 inline constexpr const char* contacts_name = "contacts";
 inline constexpr const char* ragdolls_name = "ragdolls_100";
 inline constexpr const char* pile_name = "ragdolls_pile";
@@ -24,6 +26,10 @@ void measure_workload(const Workload& workload, int rounds, bool thrifty, Result
 void measure_snapshots(int rounds, Results& results);
 // A tick in which there is next to nothing to do: of an empty world, and what one more object costs.
 void measure_overhead(int rounds, Results& results);
+// A tick of humanoids that lie on the ground, asleep and awake.
+void measure_sleep(int rounds, Results& results);
+// Rays, overlaps and nearest points in a box of ten metres: nanoseconds each.
+void measure_queries(int rounds, Results& results);
 // A 64² cloth that lies on a collider of each kind: milliseconds a tick.
 void measure_contacts(int rounds, Results& results);
 // 100 humanoids of 12 bodies fall in a block on a plane, and 30 of 15 bodies into a pit; nobody sleeps, 300

@@ -77,6 +77,11 @@ for measured in "projection", "tick":
             sys.exit(f"Of one round the best is not the median: {of_one_round}")
 value(cloth, "in runs", "")
 value(measure("overhead"), "tick", "empty world")
+value(measure("sleep"), "tick", "100 humanoids asleep")
+queries = measure("queries")
+for measured in "ray", "overlap of 50 cm", "nearest within 1 m":
+    for variant in "a plane", "100 humanoids", "10,000 balls", "4,000 boxes that stay", "a cloth of 256²":
+        value(queries, measured, variant)
 lying = measure("contacts")
 for support in "plane", "box", "15 capsules that turn":
     value(lying, support, "scalar")
