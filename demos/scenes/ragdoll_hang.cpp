@@ -1,4 +1,5 @@
-// A mannequin is held by the hands on two ropes. It swings; then the left rope gives way at the beam.
+// A mannequin is held by the hands on two ropes. It swings; then it is pulled down, and the left rope tears
+// off its hook.
 #include "scenes/mannequin.h"
 #include "scenes/scene_list.h"
 #include "scenes/time_curves.h"
@@ -14,6 +15,7 @@ constexpr std::uint32_t segments = 12;
 constexpr std::int64_t rope_length = 1200;
 constexpr std::int64_t hand_height = lift + shoulder_y;
 constexpr std::int64_t beam_height = hand_height + rope_length;
+constexpr std::int64_t hook_bears = 2500; // N: three times its weight
 
 class RagdollHang final : public Scene {
 public:
@@ -98,23 +100,47 @@ private:
                 return false;
             }
             look_as_rope(1.2, 0.02, look);
-            lks_attachment_def hold = lks_default_attachment_def();
-            hold.object = last_object();
-            hold.vertex = segments;
-            hold.body = bodies_[side > 0 ? LKS_HUMANOID_HAND_LEFT : LKS_HUMANOID_HAND_RIGHT];
-            lks_attachment_id id{};
-            if (!pin(last_object(), 0) || !accept(lks_world_add_attachment(world(), &hold, &id))) {
+            const lks_body_id hand = bodies_[side > 0 ? LKS_HUMANOID_HAND_LEFT : LKS_HUMANOID_HAND_RIGHT];
+            if (!tie(segments, hand, 0) ||
+                !(side > 0 ? hang_on_hook(object.transform.position) : pin(last_object(), 0))) {
                 return false;
             }
         }
         return true;
     }
 
+    // The last object's vertex to a body's middle; 0 N: for good.
+    bool tie(std::uint32_t vertex, lks_body_id body, std::int64_t break_force) {
+        lks_attachment_def hold = lks_default_attachment_def();
+        hold.object = last_object();
+        hold.vertex = vertex;
+        hold.body = body;
+        hold.break_force = LKS_FIXED(break_force);
+        lks_attachment_id id{};
+        return accept(lks_world_add_attachment(world(), &hold, &id));
+    }
+
+    bool hang_on_hook(const lks_vec3& position) {
+        lks_body_shape shape = lks_default_body_shape();
+        shape.radius = millimetres(35);
+        lks_body_def def = lks_default_body_def();
+        def.kind = LKS_BODY_KINEMATIC;
+        def.filter.mask = 0;
+        def.transform.position = position;
+        def.shapes = &shape;
+        def.shape_count = 1;
+        lks_body_id hook{};
+        return add_body("hook", def, rgb(0x5f6f7f), &hook) && tie(0, hook, hook_bears);
+    }
+
     bool apply_inputs(lks_fixed seconds) override {
-        if (seconds == LKS_FIXED(3)) {
-            return accept(lks_object_unpin(world(), objects()[0].id, 0));
+        if (seconds != LKS_FIXED(3)) {
+            return true;
         }
-        return true;
+        lks_transform pelvis{};
+        return accept(lks_body_transform(world(), bodies_[LKS_HUMANOID_PELVIS], &pelvis)) &&
+               accept(lks_body_apply_impulse(world(), bodies_[LKS_HUMANOID_PELVIS],
+                                             millimetres(0, -200000, 0), pelvis.position));
     }
 
     lks_body_id bodies_[LKS_HUMANOID_BONES];

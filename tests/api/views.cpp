@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "support/builders.h"
 #include "support/refusals.h"
 #include "support/scene.h"
 
@@ -348,4 +350,31 @@ TEST_CASE("a collider's matrix is its pose and goes halfway at half a tick") {
     REQUIRE(lks_collider_write_matrix(world, collider, 0, view_origin, m) == LKS_OK);
     CHECK(std::abs(m[12]) < 1e-6f);
     CHECK(std::abs(m[0]) < 1e-5f);
+}
+
+TEST_CASE("a mesh whose triangles look the other way is another asset, and its normals do, too") {
+    const Mesh mesh = wavy_mesh(5, 1);
+    Mesh reversed = mesh;
+    for (std::size_t i = 0; i < reversed.triangles.size(); i += 3) {
+        std::swap(reversed.triangles[i], reversed.triangles[i + 1]);
+    }
+    const Asset front(mesh.def());
+    const Asset back(reversed.def());
+    CHECK(lks_asset_fingerprint(front) != lks_asset_fingerprint(back));
+    World world(world_def(60, 4));
+    const auto normals_of = [&](const Asset& asset) {
+        const lks_object_id id = world.add(asset, at(0, 0, 0));
+        std::vector<float> floats(3 * std::size_t{asset.vertex_count()});
+        lks_vertex_view view = lks_default_vertex_view();
+        view.normals = floats.data();
+        view.normal_stride = 12;
+        view.vertex_capacity = asset.vertex_count();
+        REQUIRE(lks_object_write_vertices(world, id, &view) == LKS_OK);
+        return floats;
+    };
+    const std::vector<float> one = normals_of(front);
+    const std::vector<float> other = normals_of(back);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        CHECK(one[i] == doctest::Approx(-other[i]));
+    }
 }

@@ -372,3 +372,43 @@ TEST_CASE("events beyond the room for them are counted, and wrong settings refus
     CHECK(lks_world_event_count(nullptr) == 0);
     CHECK(lks_world_event_count(world) == 3);
 }
+
+TEST_CASE("who comes gently to touch a sleeper of another mass is told with the impulse that stops him") {
+    for (const bool light_first : {true, false}) {
+        World world(world_def(60, 8));
+        add_ground(world);
+        lks_body_def heavy = lks_default_body_def();
+        heavy.mass = fixed(1000);
+        heavy.never_sleeps = 1;
+        heavy.gravity_factor = 0;
+        lks_body_def light = lks_default_body_def();
+        light.mass = fixed(1);
+        const auto add_light = [&] {
+            return add_body(world, box_shape(0.5, 0.2, 0.5), fixed(0, 0.2, 0), light);
+        };
+        const auto add_heavy = [&] {
+            return add_body(world, box_shape(0.5, 0.5, 0.5), fixed(0, 3, 0), heavy);
+        };
+        const lks_body_id one = light_first ? add_light() : add_heavy();
+        const lks_body_id two = light_first ? add_heavy() : add_light();
+        const lks_body_id sleeper = light_first ? one : two;
+        const lks_body_id comer = light_first ? two : one;
+        world.step(90);
+        REQUIRE(lks_body_is_awake(world, sleeper) == 0);
+        record(world, LKS_EVENT_BIT(LKS_EVENT_CONTACT_BEGIN) | LKS_EVENT_BIT(LKS_EVENT_CONTACT_HIT), 1);
+        REQUIRE(lks_body_set_transform(world, comer, at(0, 0.9005, 0)) == LKS_OK);
+        REQUIRE(lks_body_set_velocity(world, comer, fixed(0, -0.005, 0), {}) == LKS_OK);
+        std::vector<lks_event> all;
+        double stopped = 0; // N·s that it has lost until it was told
+        while (world.tick() < 120 && all.empty()) {
+            world.step();
+            all = events_of(world);
+            stopped = 1000 * (0.005 + state_of(world, comer).velocity.y);
+        }
+        INFO("light first: " << light_first);
+        REQUIRE(!all.empty());
+        CHECK(metres(all[0].strength) > 2);
+        CHECK(metres(all[0].strength) < 6);
+        CHECK(metres(all[0].strength) > 0.9 * stopped);
+    }
+}

@@ -351,3 +351,33 @@ TEST_CASE("heaps of limp spiders come to rest" * doctest::skip(support::sanitise
     }
     CHECK(asleep >= 7);
 }
+
+TEST_CASE("what turns round and round, by whole turns a tick too, does not rest") {
+    const double turn = 2 * std::acos(-1.0);
+    struct Spin {
+        std::uint32_t rate, substeps;
+        double speed;
+    };
+    for (const Spin& spin : {Spin{60, 200, 60 * turn}, Spin{30, 100, 30 * turn}, Spin{10, 100, 10 * turn},
+                             Spin{10, 20, 63.35}, Spin{60, 20, 380.12}}) {
+        for (const bool on_ground : {false, true}) {
+            lks_world_def def = world_def(spin.rate, spin.substeps);
+            if (!on_ground) {
+                def.gravity = {};
+            }
+            World world(def);
+            if (on_ground) {
+                add_ground(world);
+            }
+            lks_body_def body = lks_default_body_def();
+            body.angular_velocity = fixed(0, spin.speed, 0);
+            const lks_body_id id = on_ground ? add_body(world, ball_shape(0.5), fixed(0, 0.5, 0), body)
+                                             : add_body(world, box_shape(0.5, 0.1, 0.3), {}, body);
+            const double start = state_of(world, id).spin.y;
+            world.step(10 * spin.rate);
+            INFO(spin.rate << " Hz at " << spin.speed << " rad/s");
+            CHECK(lks_body_is_awake(world, id) == 1);
+            CHECK(state_of(world, id).spin.y > 0.99 * start);
+        }
+    }
+}

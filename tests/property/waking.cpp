@@ -256,3 +256,66 @@ TEST_CASE("who slept on a kinematic body, or leaned on it, wakes when it is put 
     CHECK(height(scene.world, above) < 0.15);
     CHECK_FALSE(is_awake(scene.world, scene.box));
 }
+
+TEST_CASE(
+    "who stood on a collider falls when it is put above him, and stays beside a door that is put there") {
+    // Its underside is a centimetre above the box.
+    World world(world_def(60, 8));
+    lks_collider_def platform = lks_default_collider_def();
+    platform.shape = LKS_SHAPE_BOX;
+    platform.half_extents = fixed(2, 0.1, 2);
+    const lks_collider_id id = world.add(platform);
+    const lks_body_id box = add_body(world, box_shape(0.25, 0.25, 0.25), fixed(0, 0.35, 0));
+    world.step(30);
+    REQUIRE(height(world, box) == doctest::Approx(0.35).epsilon(0.01));
+    REQUIRE(lks_collider_set_transform(world, id, at(0, 0.71, 0)) == LKS_OK);
+    world.step(60);
+    CHECK(height(world, box) < -4);
+    // Moved by millimetres from tick to tick it carries on.
+    const lks_body_id rider = add_body(world, box_shape(0.25, 0.25, 0.25), fixed(0, 1.06, 0));
+    world.step(60);
+    for (int tick = 1; tick <= 120; ++tick) {
+        REQUIRE(lks_collider_set_transform(world, id, at(0, 0.71 + 0.002 * tick, 0)) == LKS_OK);
+        world.step();
+    }
+    CHECK(height(world, rider) == doctest::Approx(0.71 + 0.24 + 0.35).epsilon(0.01));
+}
+
+TEST_CASE("who is woken with his island has its half second to rest again, whichever comes first") {
+    for (const bool slider_first : {true, false}) {
+        World world(world_def(60, 8));
+        add_ground(world, 0.02);
+        lks_body_def def = lks_default_body_def();
+        def.static_friction = def.dynamic_friction = fixed(0.02);
+        def.linear_damping = 0;
+        const auto add_slider = [&] {
+            return add_body(world, box_shape(0.3, 0.1, 0.3), fixed(0, 0.1, 0), def);
+        };
+        const auto add_rider = [&] {
+            return add_body(world, box_shape(0.1, 0.1, 0.1), fixed(0, 0.3, 0), def);
+        };
+        const lks_body_id first = slider_first ? add_slider() : add_rider();
+        const lks_body_id second = slider_first ? add_rider() : add_slider();
+        const lks_body_id slider = slider_first ? first : second;
+        const lks_body_id rider = slider_first ? second : first;
+        // The rider is kept awake by pushes for two seconds more than the slider rests.
+        for (int tick = 0; tick < 180; ++tick) {
+            REQUIRE(lks_body_apply_impulse(world, rider, fixed(tick % 2 == 0 ? 0.06 : -0.06, 0, 0),
+                                           fixed(0, 0.3, 0)) == LKS_OK);
+            world.step();
+        }
+        world.step(120);
+        REQUIRE(lks_world_awake_body_count(world) == 0);
+        // The rider is taken away by a blow, and takes the slider along a little.
+        REQUIRE(lks_body_apply_impulse(world, rider, fixed(60, 0, 0), fixed(0, 0.3, 0)) == LKS_OK);
+        lks_vec3 velocity{};
+        world.step(2);
+        REQUIRE(lks_body_velocity(world, slider, &velocity, nullptr) == LKS_OK);
+        INFO("slider first: " << slider_first);
+        CHECK(is_awake(world, slider));
+        for (int tick = 0; tick < 15; ++tick) {
+            world.step();
+            CHECK(is_awake(world, slider)); // not put to sleep in the middle of its slide
+        }
+    }
+}

@@ -23,6 +23,10 @@ public:
     HeldParticle(const RigidAttachment& from, Scalar rate)
         : from_(from), point_(from.point), points_(Softness<Scalar>(from.compliance, from.damping, rate)) {}
 
+    bool is_of_pinned(const Objects& objects) const {
+        return from_.to_body && objects[from_.object].inverse_mass(from_.particle) == 0;
+    }
+    std::size_t other() const { return from_.other; }
     bool holds(std::size_t body) const { return from_.to_body && from_.other == body; }
 
     void begin_tick(int substeps) {

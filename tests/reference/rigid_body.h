@@ -83,6 +83,11 @@ struct MovingBody {
             orientation = orientation.normalised();
         }
     }
+    // Where its rotation is asked for before it turns again.
+    void settle() {
+        normalise();
+        rotation = moves ? orientation.matrix() : rotation;
+    }
 
     // By an angle in world axes. Small turns leave the quaternion's length for the end of the substep.
     void turn(const Vec& angle) {

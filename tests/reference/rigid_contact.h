@@ -24,6 +24,7 @@ struct ContactPoint {
     // kg·m: carried from substep to substep.
     Scalar push = 0;
     std::array<Scalar, 2> rub{};
+    Vec rubbed; // the same in the world
     // Of the substep.
     Vec material_a, material_b; // of the surfaces, in the frames of the bodies
     Vec start, core_start;      // b's against a's at its beginning
@@ -63,6 +64,7 @@ public:
     void take_manifold(const Manifold<Scalar>& manifold, const Body& body_a, const Body& body_b,
                        const std::vector<Point>& old) {
         normal = manifold.normal;
+        span();
         points.clear();
         for (const ManifoldPoint<Scalar>& from : manifold.points) {
             Point point;
@@ -113,10 +115,7 @@ public:
         const PushRow<Scalar> row(normal, body_a, levers.a, body_b, levers.b);
         const Scalar impulse = row.push_for(approach * (1 + restitution));
         row.accelerate(impulse, body_a, body_b);
-        const std::array<PushRow<Scalar>, 2> across{
-            PushRow<Scalar>(across_[0], body_a, levers.a, body_b, levers.b),
-            PushRow<Scalar>(across_[1], body_a, levers.a, body_b, levers.b)};
-        rub_at_once(across, levers, impulse, body_a, body_b);
+        rub_at_once(levers, impulse, body_a, body_b);
         return true;
     }
 
@@ -127,7 +126,7 @@ public:
             point.active = point.push != 0 || gap_now(point, body_a, body_b) < Scalar(0.01);
             if (!point.active) {
                 point.push = 0;
-                point.rub = {};
+                set_rub(point, {});
                 continue;
             }
             const Levers levers = levers_now(point, body_a, body_b);
@@ -160,8 +159,7 @@ public:
                 add_rows(point, share, true, to_a);
                 add_rows(point, share, false, to_b);
                 point.push += point.push * share;
-                point.rub[0] += point.rub[0] * share;
-                point.rub[1] += point.rub[1] * share;
+                set_rub(point, {point.rub[0] * (1 + share), point.rub[1] * (1 + share)});
             }
         }
         to_a.apply_to(body_a);
@@ -234,7 +232,7 @@ public:
         for (int round = 0; round < most_rounds && give_each(owed, body_a, body_b); ++round) {}
         for (const Owed& one : owed) {
             if (one.given > 0) {
-                rub_at_once(one.point->across, one.levers, one.given, body_a, body_b);
+                rub_at_once(one.levers, one.given, body_a, body_b);
             }
         }
     }
@@ -255,8 +253,8 @@ public:
         if (any) {
             to_a.apply_to(body_a);
             to_b.apply_to(body_b);
-            body_a.normalise();
-            body_b.normalise();
+            body_a.settle();
+            body_b.settle();
         }
     }
 
@@ -352,17 +350,17 @@ private:
             }
         }
     }
-    static bool take(std::vector<Point>& old, typename std::vector<Point>::iterator from, Point& to) {
+    bool take(std::vector<Point>& old, typename std::vector<Point>::iterator from, Point& to) const {
         if (from == old.end()) {
             return false;
         }
         to.push = from->push;
-        to.rub = from->rub;
+        set_rub(to, {across_[0].dot(from->rubbed), across_[1].dot(from->rubbed)});
         *from = old.back();
         old.pop_back();
         return true;
     }
-    static void take_nearest(std::vector<Point>& old, Point& to) {
+    void take_nearest(std::vector<Point>& old, Point& to) const {
         const auto distance = [&](const Point& p) {
             const Vec d = p.core_a - to.core_a;
             return std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
@@ -373,6 +371,11 @@ private:
         if (nearest != old.end() && distance(*nearest) < Scalar(0.1)) {
             take(old, nearest, to);
         }
+    }
+
+    void set_rub(Point& point, const std::array<Scalar, 2>& rub) const {
+        point.rub = rub;
+        point.rubbed = across_[0] * rub[0] + across_[1] * rub[1];
     }
 
     // Two directions across the normal, and across each other.
@@ -420,21 +423,48 @@ private:
         middle_.add(n * more, to_a, to_b);
     }
 
-    // Friction of an impulse along the normal.
-    void rub_at_once(const std::array<PushRow<Scalar>, 2>& across, const Levers& levers,
-                     Scalar normal_impulse, Body& body_a, Body& body_b) const {
-        const Vec slip =
+    // Friction of an impulse along the normal: against the way that it slips.
+    void rub_at_once(const Levers& levers, Scalar normal_impulse, Body& body_a, Body& body_b) const {
+        const Vec relative =
             body_b.velocity + cross(body_b.spin, levers.b) - body_a.velocity - cross(body_a.spin, levers.a);
-        std::array<Scalar, 2> wanted;
-        for (std::size_t i = 0; i < 2; ++i) {
-            wanted[i] = -across[i].push_for(across_[i].dot(slip));
+        const Vec slip = relative - normal * normal.dot(relative);
+        const Scalar speed = slip.length();
+        if (speed == 0) {
+            return;
         }
-        const Scalar size = std::hypot(wanted[0], wanted[1]);
-        const Scalar most = normal_impulse * dynamic_friction;
-        const Scalar factor = size > most ? most / size : Scalar(1);
-        for (std::size_t i = 0; i < 2; ++i) {
-            across[i].accelerate(wanted[i] * factor, body_a, body_b);
+        const PushRow<Scalar> row(slip * (1 / speed), body_a, levers.a, body_b, levers.b);
+        row.accelerate(-std::min(row.push_for(speed), normal_impulse * dynamic_friction), body_a, body_b);
+    }
+
+    // The push in the circle that is nearest to the wanted one, weighed by the rows' weights: what still
+    // slips slips against it (sdk/src/rigid/contact_sweep.cpp).
+    static std::array<Scalar, 2> in_circle(const std::array<Scalar, 2>& inverse, std::array<Scalar, 2> wanted,
+                                           Scalar size, Scalar most) {
+        const std::size_t heavy = inverse[0] <= inverse[1] ? 0 : 1;
+        const std::size_t light = 1 - heavy;
+        const Scalar q = inverse[heavy] / inverse[light];
+        if (q < Scalar(63) / 64) {
+            const Scalar a = most / size;
+            const auto part = [&](Scalar t) {
+                std::array<Scalar, 2> p;
+                p[heavy] = wanted[heavy] * (a * q + t);
+                p[light] = wanted[light] * q * (a + t);
+                return p;
+            };
+            const auto reach = [&](Scalar t) {
+                return (a + t) * (a * q + t) * size / std::hypot(part(t)[0], part(t)[1]);
+            };
+            const Scalar low = (1 - a) * q;
+            const Scalar high = 1 - a;
+            const Scalar least = reach(low);
+            const Scalar greatest = reach(high);
+            const Scalar share =
+                greatest > least ? std::clamp((1 - least) / (greatest - least), Scalar(0), Scalar(1)) : 0;
+            wanted = part(low + (high - low) * share);
         }
+        const Scalar length = std::hypot(wanted[0], wanted[1]);
+        return length > 0 ? std::array<Scalar, 2>{wanted[0] * most / length, wanted[1] * most / length}
+                          : std::array<Scalar, 2>{};
     }
 
     // Coulomb's cone: both directions across at once.
@@ -444,16 +474,17 @@ private:
             const Scalar slip = point.slip[i] + point.across[i].parted(to_a, to_b);
             wanted[i] = point.rub[i] - point.across[i].push_for(slip);
         }
-        const Scalar size = std::hypot(wanted[0], wanted[1]);
         const bool slides = std::hypot(point.slip[0], point.slip[1]) > slow_slip;
         const Scalar most = point.push * (slides ? dynamic_friction : static_friction);
+        const Scalar size = std::hypot(wanted[0], wanted[1]);
         if (size > most) {
-            wanted = {wanted[0] * most / size, wanted[1] * most / size};
+            wanted =
+                in_circle({point.across[0].push_for(1), point.across[1].push_for(1)}, wanted, size, most);
         }
         for (std::size_t i = 0; i < 2; ++i) {
             point.across[i].add(wanted[i] - point.rub[i], to_a, to_b);
         }
-        point.rub = wanted;
+        set_rub(point, wanted);
     }
 
     std::array<Vec, 2> across_;

@@ -193,12 +193,12 @@ public:
         }
         return limits.undo(body_a, body_b);
     }
-    // The same of its points.
-    void undo_points(Body& body_a, Body& body_b) const {
+    // The same of its points, but for a figure that a pinned particle holds.
+    void undo_points(Body& body_a, Body& body_b, bool pinned) const {
         if (is_distance()) {
             distance_.undo(body_a, body_a.rotation * point_a_, body_b, body_b.rotation * point_b_,
                            offset(body_a, body_b));
-        } else if (keeps_push()) {
+        } else if (keeps_push() && !pinned) {
             push_apart(body_a, body_b, points_.pushed_by(offset(body_a, body_b)) * Scalar(-1));
         }
     }

@@ -29,27 +29,35 @@ public:
         if (!has_edges() || closing(first) <= std::max(first.gap, Scalar(0)) + overshoot) {
             return first;
         }
-        Found before = first;
-        Found behind = at(1);
-        if (behind.gap < -depth_) {
+        const Found end = at(1);
+        if (end.gap < -depth_) {
             return meeting(first);
         }
-        if (closing(behind) >= -overshoot) {
-            return behind;
+        if (closing(end) >= -overshoot) {
+            return end;
         }
-        Scalar low = 0;
-        Scalar high = 1;
-        for (int step = 0; step < step_count; ++step) {
-            const Scalar middle = (low + high) / 2;
-            const Found between = at(middle);
-            if (between.gap < -depth_) {
+        Place before{0, first};
+        Place behind{1, end};
+        for (int step = 0; step < step_count + more_step_count; ++step) {
+            Scalar next = (before.part + behind.part) / 2;
+            if (step >= step_count) {
+                // Something thin may be between them: the lowest place that both tangents leave.
+                const Scalar fall = closing(before.found);
+                const Scalar rise = -closing(behind.found);
+                const Scalar drop = before.found.gap - behind.found.gap + rise * (behind.part - before.part);
+                next = before.part + std::max(drop, Scalar(0)) / (fall + rise);
+                const Scalar least = before.found.gap - fall * (next - before.part);
+                if (least >= -depth_ || next <= before.part || next >= behind.part) {
+                    return left(before.found, behind.found, first);
+                }
+            }
+            const Place between{next, at(next)};
+            if (between.found.gap < -depth_) {
                 return meeting(first);
             }
-            const bool closes = closing(between) >= 0;
-            (closes ? low : high) = middle;
-            (closes ? before : behind) = between;
+            (closing(between.found) >= 0 ? before : behind) = between;
         }
-        return closing(before) <= before.gap + depth_ ? before : behind;
+        return meeting(first);
     }
 
 private:
@@ -57,6 +65,23 @@ private:
         return b_.kind != LKS_SHAPE_PLANE && (a_.kind == LKS_SHAPE_BOX || b_.kind == LKS_SHAPE_BOX);
     }
     Scalar closing(const Found& found) const { return -found.normal.dot(way_); }
+
+    struct Place {
+        Scalar part;
+        Found found;
+    };
+
+    // What still holds it before the edge, if that lets it go; else what is behind it, but for what that only
+    // seems to overlap where they begin.
+    Found left(const Found& before, Found behind, const Found& first) const {
+        if (closing(before) <= before.gap + depth_) {
+            return before;
+        }
+        if (first.gap >= -depth_) {
+            std::erase_if(behind.points, [this](const auto& point) { return point.separation < -depth_; });
+        }
+        return behind;
+    }
 
     // After this part of the way.
     Found at(Scalar part) const {
@@ -86,6 +111,7 @@ private:
 
     static constexpr Scalar overshoot = Scalar(1e-5);
     static constexpr int step_count = 8;
+    static constexpr int more_step_count = 16;
 
     const Piece<Scalar>& a_;
     const Piece<Scalar>& b_;

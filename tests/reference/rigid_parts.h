@@ -52,6 +52,12 @@ struct RigidParts {
     std::size_t figure_of(const Joint& joint) const {
         return figures[bodies[joint.a].moves ? joint.a : joint.b];
     }
+    // By an attachment to a particle that does not move.
+    bool is_pinned(std::size_t figure) const {
+        return std::any_of(attachments.begin(), attachments.end(), [&](const Attachment& attachment) {
+            return attachment.is_of_pinned(objects) && figures[attachment.other()] == figure;
+        });
+    }
     bool belongs_to(const Contact& contact, std::size_t figure) const {
         return (bodies[contact.a].moves && figures[contact.a] == figure) ||
                (bodies[contact.b].moves && figures[contact.b] == figure);

@@ -40,8 +40,8 @@ public:
     RigidSolver(const RigidModel& model, const Settings& settings)
         : settings_(settings), rate_(static_cast<Scalar>(settings.tick_rate_hz * settings.substeps)),
           motion_(Vec(settings.gravity), rate_, settings.substeps), search_(model),
-          body_count_(model.bodies.size()), least_approach_(least_approach(settings)),
-          slow_slip_(slow_slip(settings)), carried_(parts_, rate_, 2 * least_approach_ / rate_) {
+          body_count_(model.bodies.size()),
+          carried_(parts_, rate_, static_cast<Scalar>(8 * gravity_speed(settings) + 0.02) / rate_) {
         for (const RigidBody& from : model.bodies) {
             bodies_.emplace_back(from);
         }
@@ -130,18 +130,20 @@ private:
     using Contact = BodyContact<Scalar>;
     using Move = BodyMove<Scalar>;
 
-    // What a substep of gravity alone gives a body is no impact, and no sliding.
+    // What a substep of gravity alone gives bodies is no impact, and no sliding.
     static double gravity_speed(const Settings& settings) {
         const support::Vector& g = settings.gravity;
         return (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)) / (settings.tick_rate_hz * settings.substeps);
     }
-    static Scalar least_approach(const Settings& settings) {
-        return static_cast<Scalar>(4 * gravity_speed(settings) + 0.01);
+    Scalar gravity_speed(const Contact& contact) const {
+        const auto factor = [this](std::size_t i) {
+            return bodies_[i].moves ? std::abs(bodies_[i].gravity_factor) : Scalar(0);
+        };
+        return static_cast<Scalar>(settings_.gravity.length()) / rate_ *
+               std::max(factor(contact.a), factor(contact.b));
     }
-    static Scalar slow_slip(const Settings& settings) {
-        return static_cast<Scalar>((gravity_speed(settings) + 0.01) /
-                                   (settings.tick_rate_hz * settings.substeps));
-    }
+    Scalar least_approach(const Contact& contact) const { return 4 * gravity_speed(contact) + Scalar(0.01); }
+    Scalar slow_slip(const Contact& contact) const { return (gravity_speed(contact) + Scalar(0.01)) / rate_; }
 
     void add_still(const RigidCollider& collider) {
         RigidBody still;
@@ -183,14 +185,14 @@ private:
             motion_.finish(body);
         }
         parts_.for_each_contact([this](Contact& contact, Body& a, Body& b) {
-            contact.restore_speed(a, b, least_approach_, rate_);
+            contact.restore_speed(a, b, least_approach(contact), rate_);
         });
-        parts_.for_each_joint([](const Joint& joint, Body& a, Body& b) {
+        parts_.for_each_joint([this](const Joint& joint, Body& a, Body& b) {
             if (!joint.in_tree) {
                 joint.undo_turn(a, b);
-                joint.undo_points(a, b);
-                a.normalise();
-                b.normalise();
+                joint.undo_points(a, b, parts_.is_pinned(parts_.figure_of(joint)));
+                a.settle();
+                b.settle();
             }
         });
         for (const bool shared : {false, true}) {
@@ -219,7 +221,8 @@ private:
             for (std::size_t i = 0; i < contacts_.size(); ++i) {
                 Contact& contact = contacts_[pass % 2 == 0 ? i : contacts_.size() - 1 - i];
                 again =
-                    contact.strike(bodies_[contact.a], bodies_[contact.b], least_approach_, rate_) || again;
+                    contact.strike(bodies_[contact.a], bodies_[contact.b], least_approach(contact), rate_) ||
+                    again;
             }
         }
     }
@@ -270,7 +273,8 @@ private:
         for (std::size_t k = 0; k < contacts_.size(); ++k) {
             Contact& contact = contacts_[back ? contacts_.size() - 1 - k : k];
             if (parts_.is_shared(contact) == shared && takes(contact)) {
-                contact.project(contact_moves_[contact.a], contact_moves_[contact.b], back, slow_slip_);
+                contact.project(contact_moves_[contact.a], contact_moves_[contact.b], back,
+                                slow_slip(contact));
             }
         }
     }
@@ -327,8 +331,6 @@ private:
     FreeMotion<Scalar> motion_;
     ContactSearch<Scalar> search_;
     std::size_t body_count_;
-    Scalar least_approach_;
-    Scalar slow_slip_;
     RigidParts<Scalar> parts_;
     std::vector<Body>& bodies_ = parts_.bodies;
     std::vector<Joint>& joints_ = parts_.joints;

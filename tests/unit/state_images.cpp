@@ -3,11 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "rigid/body.h"
 #include "state/hash.h"
 #include "state/image.h"
 #include "support/bodies.h"
@@ -268,6 +270,71 @@ TEST_CASE("an image whose kinematic body is farther from its target than a tick 
     put_right_checksum(near);
     REQUIRE(lks_world_load(world, near.data(), near.size()) == LKS_OK);
     world.step(2);
+}
+
+TEST_CASE("an image whose contact names a collider that the image has not got is refused and names it") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    add_body(world, ball_shape(0.5), fixed(0, 0.5, 0));
+    world.step(5);
+    REQUIRE(lks_world_contact_count(world) == 1);
+    const Image good = world.save();
+    // Body 0 and collider 0, side by side.
+    const std::uint64_t pair = std::uint64_t{0x80000000} << 32;
+    std::size_t at = lks::image_checked_from;
+    int found = 0;
+    for (std::size_t i = at; i + 8 <= good.size(); i += 4) {
+        std::uint64_t value = 0;
+        std::memcpy(&value, good.bytes() + i, 8);
+        if (value == pair) {
+            at = i;
+            ++found;
+        }
+    }
+    REQUIRE(found == 1);
+    for (const std::uint32_t collider : {1u, 4000u, LKS_MAX_COLLIDERS - 1}) {
+        Image bad = good;
+        put_u64(bad, at, pair | std::uint64_t{collider} << 32);
+        put_right_checksum(bad);
+        check_call_refused(world, LKS_ERROR_CORRUPT_IMAGE, "contact 0",
+                           [&] { return lks_world_load(world, bad.data(), bad.size()); });
+    }
+}
+
+TEST_CASE("an image whose sleeper moves is refused") {
+    World world(world_def(60, 2));
+    add_ground(world);
+    const lks_body_id box = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(0, 0.2, 0));
+    world.step(120);
+    REQUIRE(lks_body_is_awake(world, box) == 0);
+    const Image good = world.save();
+    // Behind its orientations a body's velocity: six words of nought in the image of one that sleeps.
+    const lks_fixed y = [&] {
+        lks_transform transform{};
+        REQUIRE(lks_body_transform(world, box, &transform) == LKS_OK);
+        return transform.position.y;
+    }();
+    std::size_t word = lks::image_checked_from;
+    const auto value_at = [&](std::size_t at) {
+        std::uint64_t value = 0;
+        std::memcpy(&value, good.bytes() + at, 8);
+        return value;
+    };
+    while (value_at(word) != static_cast<std::uint64_t>(y)) {
+        word += 8;
+    }
+    const std::size_t velocity = word - 8 + offsetof(lks::BodyState, velocity);
+    for (std::size_t part = 0; part < 6; ++part) {
+        REQUIRE(value_at(velocity + 8 * part) == 0);
+        for (const std::uint64_t speed : {std::uint64_t{1}, std::uint64_t{0} - 1, std::uint64_t{1} << 41}) {
+            Image bad = good;
+            put_u64(bad, velocity + 8 * part, speed);
+            put_right_checksum(bad);
+            check_call_refused(world, LKS_ERROR_CORRUPT_IMAGE, "body 0",
+                               [&] { return lks_world_load(world, bad.data(), bad.size()); });
+        }
+    }
+    REQUIRE(lks_world_load(world, good.data(), good.size()) == LKS_OK);
 }
 
 TEST_CASE("images cut anywhere are refused behind a right checksum and size") {

@@ -155,7 +155,8 @@ LKS_API lks_result lks_asset_create_rope(const lks_rope_def* def, lks_asset** as
 /* Gives up the caller's hold. Worlds that know the asset keep it alive. Null is allowed. */
 LKS_API void lks_asset_release(lks_asset* asset);
 
-/* 0 for null, as all of these. The fingerprint covers everything that can influence a simulation. */
+/* 0 for null, as all of these. The fingerprint covers everything that can influence a
+ * simulation, and the triangles. */
 LKS_API uint64_t lks_asset_fingerprint(const lks_asset* asset);
 LKS_API uint32_t lks_asset_vertex_count(const lks_asset* asset);     /* a rope's points */
 LKS_API uint32_t lks_asset_constraint_count(const lks_asset* asset); /* of all families, without tethers */

@@ -4,6 +4,9 @@
  * a 5 cm plate or a 10 cm ball: a fast particle is traced along its way through the substep (sphere tracing
  * of the exact distance), in the collider's own moving frame. Friction is Coulomb's, static and dynamic. What
  * is inside already, since a collider was put there or another one leaves no room, gets out at 3 m/s.
+ * Colliders push one after the other, once an iteration: in a groove between two plates the second may push
+ * what is fast through the first (at 60 Hz with 20 substeps and one iteration at 100 m/s where they are 20°
+ * apart; with 4 iterations none of 200 passes at any angle tried).
  * Bodies (lockstitch/body.h) meet colliders as they meet each other. Restitution is for bodies alone:
  * particles do not bounce.
  */
@@ -60,7 +63,8 @@ LKS_API uint32_t lks_world_has_collider(const lks_world* world, lks_collider_id 
 /* Kinematic motion: where the collider is to be at the end of the next tick; it gets there evenly over the
  * substeps and then rests there until the next call. It pushes and drags what it touches. At most 100 m and
  * 90° a tick: further is refused (use lks_collider_set_transform). Beyond 60 m a substep it may jump over
- * particles. Of sleeping bodies it wakes those that it touches, and whose filters meet its own. */
+ * particles, and what a plane rises by beyond 32 m a substep leaves them below it, to come up later. Of
+ * sleeping bodies it wakes those that it touches, and whose filters meet its own. */
 LKS_API lks_result lks_collider_move_to(lks_world* world, lks_collider_id collider, lks_transform target);
 /* Puts it there at once, without a motion. */
 LKS_API lks_result lks_collider_set_transform(lks_world* world, lks_collider_id collider,

@@ -152,7 +152,7 @@ lks_result lks_attachment_force(const lks_world* world, lks_attachment_id attach
         return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_attachment_force", "force"));
     }
     const Attachment& found = world->rigid.attachments[attachment.index];
-    const fixed::Scaled greater = greater_inverse_mass(found, sides_of(*world, found));
+    const fixed::Scaled greater = found.constants.greater_inverse_mass;
     *force = greater.is_zero() ? lks_vec3{} : times(found.pushed, force_of_push(world->rate, greater));
     return LKS_OK;
 }

@@ -9,6 +9,7 @@
 #include "rigid/body_motion.h"
 #include "rigid/contact_memory.h"
 #include "rigid/contact_search.h"
+#include "rigid/coupling.h"
 #include "rigid/make_body.h"
 #include "rigid/sleep.h"
 
@@ -65,6 +66,7 @@ void change_kind(lks_world& world, std::uint32_t index, std::uint32_t kind) {
             forget_pushes(joint);
         }
     }
+    follow_masses(world);
 }
 
 lks_transform transform_of(const Body& body, const BodyDescription& description) {

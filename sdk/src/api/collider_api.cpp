@@ -2,9 +2,11 @@
 #include <lockstitch/collider.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "api/checks.h"
 #include "api/collider_checks.h"
+#include "collide/saturation.h"
 #include "rigid/contact_memory.h"
 #include "rigid/sleep.h"
 
@@ -34,6 +36,25 @@ ColliderState make_collider(const lks_collider_def& def) {
     place_collider(collider, to_vec3(def.transform.position),
                    fixed::normalise(to_rotation(def.transform.rotation)));
     return collider;
+}
+
+// Whether any point of it is put further off than contacts are looked for: what touched it is where it was by
+// chance, and not on the side that it came from. A plane has one side.
+bool jumps(const ColliderState& collider, const fixed::Vec3& position, const fixed::Rotation& rotation) {
+    if (collider.shape.kind == LKS_SHAPE_PLANE) {
+        return false;
+    }
+    const fixed::Matrix3 from = fixed::to_matrix(collider.rotation);
+    const fixed::Matrix3 to = fixed::to_matrix(rotation);
+    std::int64_t turn = 0; // Direction, at least as much as a point at one metre moves by
+    for (int i = 0; i < 9; ++i) {
+        turn += std::abs(std::int64_t{to.m[i / 3][i % 3]} - from.m[i / 3][i % 3]);
+    }
+    const std::int64_t radius = world_from_coordinate(bounding_radius(collider.shape, 0));
+    const std::int64_t way =
+        fixed::saturating_add(sum_of_magnitudes(saturating_subtract(position, collider.position)),
+                              fixed::multiply_shift(radius, turn, direction_fraction_bits));
+    return way > near_distance;
 }
 
 bool reserve_slot(lks_world& world, std::uint32_t index) {
@@ -158,8 +179,12 @@ lks_result lks_collider_move_to(lks_world* world, lks_collider_id collider, lks_
 lks_result lks_collider_set_transform(lks_world* world, lks_collider_id collider, lks_transform transform) {
     lks_result result = LKS_OK;
     if (ColliderState* found = require_collider(world, collider, transform, result)) {
-        place_collider(*found, to_vec3(transform.position),
-                       fixed::normalise(to_rotation(transform.rotation)));
+        const fixed::Vec3 position = to_vec3(transform.position);
+        const fixed::Rotation rotation = fixed::normalise(to_rotation(transform.rotation));
+        if (jumps(*found, position, rotation)) {
+            forget_contacts(world->rigid, collider.index | other_is_collider);
+        }
+        place_collider(*found, position, rotation);
         wake_who_meets(world->rigid, found->filter);
     }
     return result;

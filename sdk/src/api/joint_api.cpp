@@ -83,7 +83,12 @@ void set_limits(lks_world& world, Joint& joint, const lks_joint_def& def) {
     }
     joint.description = wanted;
     if (is_distance(joint)) {
-        forget_pushes(joint); // else as much as they moved it would be made up for with speed
+        // Else as much as they moved it would be made up for with speed. What it bore stays to be read.
+        const fixed::Vec3 pushed = joint.pushed;
+        const fixed::Vec3 turned = joint.turned;
+        forget_pushes(joint);
+        joint.pushed = pushed;
+        joint.turned = turned;
     }
     Body& a = world.rigid.bodies[wanted.body_a];
     Body& b = world.rigid.bodies[wanted.body_b];

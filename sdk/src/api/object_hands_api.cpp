@@ -3,6 +3,7 @@
 
 #include "api/attachment_checks.h"
 #include "api/checks.h"
+#include "rigid/coupling.h"
 #include "solver/local_frame.h"
 #include "solver/prediction.h"
 #include "solver/wrapping.h"
@@ -175,6 +176,7 @@ lks_result lks_object_pin(lks_world* world, lks_object_id object, uint32_t verte
                                             : *axis;
     }
     found->add_pin(world->rate, particle, target);
+    follow_masses(*world);
     return LKS_OK;
 }
 
@@ -183,6 +185,7 @@ lks_result lks_object_unpin(lks_world* world, lks_object_id object, uint32_t ver
     lks_result result = LKS_OK;
     if (const Pin* pin = require_pin(world, object, vertex, found, result)) {
         found->remove_pin(world->rate, pin->particle);
+        follow_masses(*world);
     }
     return result;
 }

@@ -1,4 +1,4 @@
-// The hash over all of an asset that can influence a simulation, its vertex numbering included.
+// The hash over all of an asset that can influence a simulation or its views, its vertex numbering included.
 #include "asset/build.h"
 #include "state/hash.h"
 
@@ -45,6 +45,8 @@ std::uint64_t compute_fingerprint(const lks_asset& asset) {
         hash.add_i64(asset.rest_lengths[i]);
     }
     hash.add_u32(static_cast<std::uint32_t>(asset.solver));
+    // What views draw: the same edges may be those of other triangles.
+    hash.add_u32_array(asset.triangles.data(), asset.triangles.size());
     if (!asset.tethers.empty()) {
         const Tethers& tethers = asset.tethers;
         hash.add_u32_array(tethers.anchors.data(), tethers.anchors.size());

@@ -198,7 +198,7 @@ public:
     bool undo_errors() {
         bool far_off = false;
         for_each_joint([&](const ArticulatedJoint&, const Joint& joint) {
-            far_off = undo_error(joint, body_a(joint), body_b(joint)) || far_off;
+            far_off = undo_error(joint, body_a(joint), body_b(joint), false) || far_off;
         });
         return far_off;
     }

@@ -22,6 +22,14 @@ struct ArticulatedBody {
     std::int64_t share;      // of the tree's greatest inverse mass
     std::int64_t fine_share; // the same with 40 fraction bits: of uneven trees
     bool attached;
+    bool has_anchor;        // a joint of its tree's solve holds it on what does not move
+    bool tree_has_anchor;   // of the root: one holds any of its tree
+    bool on_anchor_way;     // between the root and the first anchor of its tree
+    std::uint32_t incoming; // the joint of tree_joints by which it hangs on its parent; of the root none
+    // On that way: where it leaves the body, in its frame, and how long it is from the anchor to there,
+    // World.
+    fixed::Vec3 anchor_point;
+    std::int64_t anchor_way;
     bool loads_rope;         // by its attachments, which then leave the tree as it is (rigid/rope_loads.h)
     std::uint32_t tree;      // or none
     std::uint32_t rope_load; // its first, or none
@@ -60,6 +68,7 @@ struct ArticulatedJoint {
 };
 
 inline constexpr std::uint32_t no_tree = UINT32_MAX;
+inline constexpr std::uint32_t no_joint = UINT32_MAX;
 inline constexpr std::uint32_t no_rope_load = UINT32_MAX;
 
 // Which of the scene's tree_bodies and tree_joints are one tree's.

@@ -5,6 +5,7 @@
 #include "rigid/articulation.h"
 #include "rigid/body_roots.h"
 #include "rigid/rope_loads.h"
+#include "rigid/taut_anchors.h"
 #include "rigid/uneven_tree.h"
 
 namespace lks {
@@ -55,10 +56,12 @@ public:
         scene_.trees.clear();
         for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
             scene_.joints[i].in_tree = scene_.joints[i].in_held_tree = false;
-            if (scene_.joint_slots[i].used && may_be_solved(scene_.joints[i])) {
+            if (scene_.joint_slots[i].used && may_be_solved(scene_.joints[i]) &&
+                !is_anchor(scene_.joints[i])) {
                 choose(i);
             }
         }
+        choose_anchors();
         mark_attached();
         mark_loads();
         sort_numbers(scene_.tree_links, scene_.sorting);
@@ -95,21 +98,53 @@ private:
                is_near(a, d.point_a) && is_near(b, d.point_b);
     }
 
+    // Of one body that moves and one that does not.
+    bool is_anchor(const Joint& joint) const {
+        const JointDescription& d = joint.description;
+        return scene_.bodies[d.body_a].is_awake() != scene_.bodies[d.body_b].is_awake();
+    }
+
     // Unless it closes a loop.
     void choose(std::uint32_t index) {
         const JointDescription& d = scene_.joints[index].description;
-        const bool a_moves = scene_.bodies[d.body_a].is_awake();
-        const bool b_moves = scene_.bodies[d.body_b].is_awake();
-        if (a_moves && b_moves && roots_.root(d.body_a) == roots_.root(d.body_b)) {
+        if (roots_.root(d.body_a) == roots_.root(d.body_b)) {
             return;
         }
         roots_.join(d.body_a, d.body_b);
-        if (a_moves) {
-            scene_.tree_links.push_reserved(std::uint64_t{d.body_a} << 32 | index);
+        scene_.tree_links.push_reserved(std::uint64_t{d.body_a} << 32 | index);
+        scene_.tree_links.push_reserved(std::uint64_t{d.body_b} << 32 | index);
+    }
+
+    // A second joint to what does not move closes a loop, too. Solved with the tree it asks for the
+    // impossible where the two don't fit: what a body that both hold has left along the line between them is
+    // roundings, and dividing by those throws it about. So each tree has one, and others where they fit and
+    // hold another body.
+    void choose_anchors() {
+        for (ArticulatedBody& body : scene_.articulated) {
+            body.has_anchor = body.tree_has_anchor = body.on_anchor_way = false;
         }
-        if (b_moves) {
-            scene_.tree_links.push_reserved(std::uint64_t{d.body_b} << 32 | index);
+        for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
+            const Joint& joint = scene_.joints[i];
+            if (!scene_.joint_slots[i].used || !may_be_solved(joint) || !is_anchor(joint)) {
+                continue;
+            }
+            const JointDescription& d = joint.description;
+            const std::uint32_t held = scene_.bodies[d.body_a].is_awake() ? d.body_a : d.body_b;
+            ArticulatedBody& body = scene_.articulated[held];
+            ArticulatedBody& root = scene_.articulated[roots_.root(held)];
+            if (root.tree_has_anchor && (body.has_anchor || !fits(joint))) {
+                continue;
+            }
+            body.has_anchor = root.tree_has_anchor = true;
+            scene_.tree_links.push_reserved(std::uint64_t{held} << 32 | i);
         }
+    }
+
+    // Within a millimetre.
+    bool fits(const Joint& joint) const {
+        const JointDescription& d = joint.description;
+        return sum_of_magnitudes(joint_offset(joint, scene_.bodies[d.body_a], scene_.bodies[d.body_b])) <=
+               (std::int64_t{1} << world_fraction_bits) / 1000;
     }
 
     // The end of the links of the body at `i`.
@@ -155,6 +190,7 @@ private:
         bool loaded = false;
         bool anchored = false;
         scene_.tree_bodies.push_reserved(root);
+        scene_.articulated[root].incoming = no_joint;
         std::uint32_t lightest = root;
         for (std::size_t next = begin; next < scene_.tree_bodies.size(); ++next) {
             const std::uint32_t parent = scene_.tree_bodies[next];
@@ -170,6 +206,7 @@ private:
             drop_from(begin, begin_joints);
             return;
         }
+        leave_out_taut_anchors(scene_, begin_joints);
         const std::int64_t most = loaded ? uneven_ratio_on_ropes : uneven_ratio;
         bool uneven = false;
         for (std::size_t i = begin; i < scene_.tree_bodies.size(); ++i) {
@@ -257,6 +294,8 @@ private:
             part.child = part.child_is_a ? joint.description.body_a : joint.description.body_b;
             part.child_moves = scene_.bodies[part.child].is_awake();
             if (part.child_moves) {
+                scene_.articulated[part.child].incoming =
+                    static_cast<std::uint32_t>(scene_.tree_joints.size() - 1);
                 scene_.tree_bodies.push_reserved(part.child);
             }
         }

@@ -6,6 +6,7 @@
 #include "collide/saturation.h"
 #include "rigid/body_motion.h"
 #include "rigid/make_body.h"
+#include "rigid/push_limits.h"
 
 namespace lks {
 namespace {
@@ -80,6 +81,7 @@ AttachmentConstants make_attachment_constants(const AttachmentDescription& d, co
     const InverseMass b = other_inverse_mass(d, sides);
     c.shares = pair_shares(a, b);
     const Scaled greater = to_scaled(c.shares.a == direction_one ? a : b);
+    c.greater_inverse_mass = greater;
     if (!greater.is_zero()) {
         const Scaled inverse_h = rate.inverse_h();
         c.softness = make_softness(d.compliance, d.damping, greater, rate);
@@ -88,21 +90,35 @@ AttachmentConstants make_attachment_constants(const AttachmentDescription& d, co
     return c;
 }
 
-Scaled greater_inverse_mass(const Attachment& attachment, const AttachmentSides& sides) {
-    const AttachmentDescription& d = attachment.description;
-    return to_scaled(attachment.constants.shares.a == direction_one
-                         ? particle_inverse_mass(sides.object, d.particle)
-                         : other_inverse_mass(d, sides));
+void follow_masses(Attachment& attachment, const AttachmentSides& sides, const StepRate& rate) {
+    if (attachment.constants.movable == movable_sides(attachment.description, sides)) {
+        return;
+    }
+    const Scaled before = attachment.constants.greater_inverse_mass;
+    attachment.constants = make_attachment_constants(attachment.description, sides, rate);
+    const Scaled now = attachment.constants.greater_inverse_mass;
+    if (before.is_zero() || now.is_zero()) {
+        attachment.pushed = {0, 0, 0};
+        return;
+    }
+    const Scaled ratio = now / before;
+    const std::int64_t greatest_sum = greatest_push * static_cast<std::int64_t>(rate.substeps);
+    const auto follow = [&](std::int64_t& push) {
+        const Scaled size = Scaled::from_fixed(fixed::magnitude(push), world_fraction_bits) * ratio;
+        const std::int64_t scaled = std::min(size.to_i64_fixed(world_fraction_bits), greatest_sum);
+        push = push < 0 ? -scaled : scaled;
+    };
+    follow(attachment.pushed.x);
+    follow(attachment.pushed.y);
+    follow(attachment.pushed.z);
 }
 
 void begin_tick(Attachment& attachment, const AttachmentSides& sides, const StepRate& rate) {
+    follow_masses(attachment, sides, rate);
     const auto n = static_cast<std::int64_t>(rate.substeps);
     const Vec3& sum = attachment.pushed;
     attachment.expected = {sum.x / n, sum.y / n, sum.z / n};
     attachment.pushed = {0, 0, 0};
-    if (attachment.constants.movable != movable_sides(attachment.description, sides)) {
-        attachment.constants = make_attachment_constants(attachment.description, sides, rate);
-    }
 }
 
 void measure_left(Attachment& attachment, const AttachmentSides& sides, const MotionRate& rate) {

@@ -30,10 +30,13 @@ struct AttachmentDescription {
 
 // What follows from the description and the masses.
 struct AttachmentConstants {
-    std::uint32_t movable; // movable_sides
+    std::uint32_t movable;              // movable_sides
+    fixed::Scaled greater_inverse_mass; // 1/kg: what shares are shares of
     PairShares shares;
     Softness softness;
     std::int64_t break_push; // what `pushed` bears; 0: everything
+
+    bool moves_particle() const { return (movable & 1) != 0; }
 };
 
 struct Attachment {
@@ -83,10 +86,10 @@ InverseMass particle_inverse_mass(const Object& object, std::uint32_t particle);
 std::uint32_t movable_sides(const AttachmentDescription& d, const AttachmentSides& sides);
 AttachmentConstants make_attachment_constants(const AttachmentDescription& description,
                                               const AttachmentSides& sides, const StepRate& rate);
-// The number that the shares are shares of, 1/kg.
-fixed::Scaled greater_inverse_mass(const Attachment& attachment, const AttachmentSides& sides);
+// After a side was pinned, or made kinematic, or lets go: what it pushed is the same force in other masses.
+void follow_masses(Attachment& attachment, const AttachmentSides& sides, const StepRate& rate);
 
-// Before a tick's substeps: what is pinned may have changed.
+// Before a tick's substeps.
 void begin_tick(Attachment& attachment, const AttachmentSides& sides, const StepRate& rate);
 // Before the prediction. What is attached where it is not comes together by two metres a second at most: all
 // at once it would be thrown.

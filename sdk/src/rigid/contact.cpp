@@ -37,6 +37,7 @@ void undo(Body& body, const Move& move, std::int32_t share) {
     if (share != 0) {
         apply(body, move);
         body.orientation = normalise(body.orientation);
+        body.follow_orientation();
     }
 }
 
@@ -46,6 +47,18 @@ public:
     explicit OldPushes(std::span<const ContactPush> pushes)
         : count_(static_cast<std::uint32_t>(pushes.size())) {
         std::copy(pushes.begin(), pushes.end(), pushes_);
+    }
+
+    // What rubbed across one normal rubs along these directions now.
+    void follow(const Direction& normal, const Direction (&directions)[3]) {
+        Direction before[3];
+        span(normal, before);
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            std::int64_t(&across)[2] = pushes_[i].across;
+            const Vec3 rubbed = fixed::scale(before[1], across[0]) + fixed::scale(before[2], across[1]);
+            across[0] = fixed::dot(directions[1], rubbed);
+            across[1] = fixed::dot(directions[2], rubbed);
+        }
     }
 
     bool take_feature(std::uint32_t feature, ContactPush& to) {
@@ -107,11 +120,14 @@ std::uint32_t combined_friction(std::int64_t a, std::int64_t b) {
     return static_cast<std::uint32_t>(fixed::shift_right_rounded(root, world_fraction_bits - 18));
 }
 
-void take_manifold(Contact& contact, std::span<const ContactPush> old_pushes, const Manifold& manifold,
-                   const Body& a, const Body& b) {
-    OldPushes old(old_pushes);
+void take_manifold(Contact& contact, const OldContact& old_contact, const Manifold& manifold, const Body& a,
+                   const Body& b) {
+    OldPushes old(old_contact.pushes);
     contact.count = manifold.count;
     span(manifold.normal, contact.directions);
+    if (!old_contact.pushes.empty() && !(old_contact.normal == manifold.normal)) {
+        old.follow(old_contact.normal, contact.directions);
+    }
     bool known[greatest_point_count];
     for (std::uint32_t i = 0; i < manifold.count; ++i) {
         const ManifoldPoint& from = manifold.points[i];

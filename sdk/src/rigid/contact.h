@@ -98,6 +98,7 @@ struct Contact {
     std::int64_t restitution;       // World
     std::int64_t given_speed;       // World m/s: what it gave along its normals in this tick, added up
     bool every_substep;             // its points are looked for in each, not once a tick
+    std::int64_t gravity_speed;     // World m/s: that a substep of gravity gives its bodies at most
     bool fast;                      // one may pass the middle of the other in a tick; never a plane's
     fixed::Direction directions[3]; // the normal, from a to b, and two across it
     // Of the substep: a push along the normal at the middle of all active points, where they are several.
@@ -110,6 +111,12 @@ struct Contact {
 
     const fixed::Direction& normal() const { return directions[normal_row]; }
 };
+
+// What a substep of gravity alone does, and a centimetre a second more, is no impact and no sliding.
+inline constexpr std::int64_t slow_contact = (std::int64_t{1} << world_fraction_bits) / 100;
+constexpr std::int64_t least_approach(std::int64_t gravity_speed) {
+    return 4 * gravity_speed + slow_contact;
+}
 
 // What the search found of it.
 struct FoundContact {
@@ -146,16 +153,22 @@ inline bool keeps_side(const Body& a, const Body& b) {
 constexpr std::uint32_t point_room(bool every_substep, const Manifold& manifold) {
     return every_substep ? greatest_point_count : manifold.count;
 }
+// Pushes, and the normal across which they rub.
+struct OldContact {
+    std::span<const ContactPush> pushes;
+    fixed::Direction normal;
+};
 // Fills the points from a new manifold. Each takes over the old push of the same feature, or else of the
-// nearest place that is left: where edges lie upon edges, features come and go.
-void take_manifold(Contact& contact, std::span<const ContactPush> old_pushes, const Manifold& manifold,
-                   const Body& a, const Body& b);
+// nearest place that is left: where edges lie upon edges, features come and go. What rubbed goes on the same
+// way, whatever the two directions across the normal are now.
+void take_manifold(Contact& contact, const OldContact& old, const Manifold& manifold, const Body& a,
+                   const Body& b);
 // Before the bodies are predicted.
 void begin_substep(Contact& contact, const Body& a, const Body& b, const MotionRate& rate);
 // An impact of two single points that give back speed, before the bodies are predicted: the impulse that
 // reverses their approach. True where there was one. Impacts of several points at once are left to
 // restore_speed: a box would take them one after the other and spin.
-bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach, const MotionRate& rate);
+bool strike(Contact& contact, ContactBodies bodies, const MotionRate& rate);
 // Once the bodies are predicted and joints have pushed: its rows. Then: what they pushed in the substep
 // before, on one of its bodies.
 void make_rows(Contact& contact, ContactBodies bodies);
@@ -163,16 +176,16 @@ void carry_on(Contact& contact, bool to_a, Move& move);
 // Adds a share of its pushes, 30 fraction bits, -1 .. 1.
 void carry_more(Contact& contact, ContactBodies bodies, std::int32_t share);
 // In each iteration: where the bodies are before contacts push them. They stay there in the sweeps forward
-// and back, to which their moves are small. What slips by more than `slow_slip` in the substep slides.
+// and back, to which their moves are small.
 void measure(Contact& contact, ContactBodies bodies);
-void project(Contact& contact, ContactMoves moves, bool back, std::int64_t slow_slip);
+void project(Contact& contact, ContactMoves moves, bool back, const MotionRate& rate);
 // Whether what pushes is still closing by more than this in the substep.
 bool closes(const Contact& contact, const ContactBodies& bodies, std::int64_t distance);
 // For events: what it pushed in this substep.
 void add_up_pushes(Contact& contact, const MotionRate& rate);
 // Once velocities are known; `predicted`: before anything was pushed.
 void restore_speed(Contact& contact, ContactBodies bodies, const ContactSpeeds& predicted,
-                   std::int64_t least_approach, const MotionRate& rate);
+                   const MotionRate& rate);
 // For events, World m/s: what it has yet to give where it pushes and they still close, as if nobody else did.
 std::int64_t speed_to_come(const Contact& contact, const ContactBodies& bodies);
 // Last: overlaps that do not part by a motion, by moving bodies without giving them speed.

@@ -20,24 +20,38 @@ void accelerate(const Contact& contact, const ContactRows& rows, int row, std::i
     accelerate(bodies.b, rows.b.rows[row], contact.shares.b, rows.b.turn_shift, along, p, 1);
 }
 
+// One side of a row of its own: what it does to a body, its weight being added to.
+struct ImpactSide {
+    PushRow row;
+    std::int32_t turn_shift;
+};
+ImpactSide impact_side(const Body& body, std::int32_t share, const fixed::Direction& along,
+                       const fixed::Vec3& lever, std::int64_t& weight) {
+    if (share == 0) {
+        return {};
+    }
+    const UnitLever unit = to_unit(body, lever);
+    return {push_row(body, share, along, unit, weight), unit.turn_shift};
+}
+
 // Coulomb's friction of an impulse along the normal, at once: what slips is stopped, or slides on by what
-// that leaves. It takes energy out: both rows together undo no more than the slip there is.
-void rub(const Contact& contact, const ContactRows& rows, const Levers& levers, std::int64_t normal,
-         const ContactBodies& bodies) {
+// that leaves. It pushes against the way that it slips, whichever way that is, and takes energy out: it
+// undoes no more than the slip there is.
+void rub(const Contact& contact, const Levers& levers, std::int64_t normal, const ContactBodies& bodies) {
+    const fixed::Direction& n = contact.normal();
     const fixed::Vec3 slip = velocity_at(bodies.b, levers.b) - velocity_at(bodies.a, levers.a);
-    std::int64_t wanted[2];
-    for (int t = 0; t < 2; ++t) {
-        const std::int64_t along = fixed::dot(contact.directions[1 + t], slip);
-        wanted[t] = -divide(bounded(along, greatest_given), rows.inverses[1 + t]);
+    fixed::NormalisedVector way{};
+    if (!fixed::normalise(slip - fixed::scale(n, fixed::dot(n, slip)), way)) {
+        return;
     }
+    std::int64_t weight = 0;
+    const ImpactSide a = impact_side(bodies.a, contact.shares.a, way.direction, levers.a, weight);
+    const ImpactSide b = impact_side(bodies.b, contact.shares.b, way.direction, levers.b, weight);
     const std::int64_t most = fixed::multiply_shift(normal, contact.dynamic_friction, 18);
-    fixed::NormalisedVector size{};
-    if (fixed::normalise(fixed::Vec3{wanted[0], wanted[1], 0}, size) && size.length > most) {
-        wanted[0] = fixed::scale_component(size.direction.x, most);
-        wanted[1] = fixed::scale_component(size.direction.y, most);
-    }
-    accelerate(contact, rows, 1, wanted[0], bodies);
-    accelerate(contact, rows, 2, wanted[1], bodies);
+    const std::int64_t stops = divide(bounded(way.length, greatest_given), invert(weight));
+    const std::int64_t p = -std::min(stops, most);
+    accelerate(bodies.a, a.row, contact.shares.a, a.turn_shift, way.direction, p, -1);
+    accelerate(bodies.b, b.row, contact.shares.b, b.turn_shift, way.direction, p, 1);
 }
 
 bool has_struck(const ContactPoint& point, std::int64_t least_approach) {
@@ -50,7 +64,7 @@ bool has_struck(const ContactPoint& point, std::int64_t least_approach) {
 class Restoring {
 public:
     Restoring(Contact& contact, const ContactBodies& bodies, const ContactSpeeds& predicted,
-              std::int64_t least_approach, std::int64_t substeps_per_second)
+              std::int64_t substeps_per_second)
         : contact_(contact), bodies_(bodies) {
         const fixed::Matrix3 turned_a = fixed::to_matrix(narrow(bodies.a.predicted_orientation));
         const fixed::Matrix3 turned_b = fixed::to_matrix(narrow(bodies.b.predicted_orientation));
@@ -59,7 +73,7 @@ public:
             if (!point.active) {
                 continue;
             }
-            const bool struck = has_struck(point, least_approach);
+            const bool struck = has_struck(point, least_approach(contact.gravity_speed));
             struck_count_ += struck ? 1u : 0u;
             // Where it was when its rows were made: only so does what is given back do as much work as what
             // was taken.
@@ -148,7 +162,7 @@ private:
         for (std::uint32_t i = 0; i < count_; ++i) {
             const Point& point = points_[i];
             if (point.given > 0) {
-                rub(contact_, contact_.points[point.index].rows, point.levers, point.given, bodies_);
+                rub(contact_, point.levers, point.given, bodies_);
             }
         }
     }
@@ -162,32 +176,33 @@ private:
 
 } // namespace
 
-bool strike(Contact& contact, ContactBodies bodies, std::int64_t least_approach, const MotionRate& rate) {
+bool strike(Contact& contact, ContactBodies bodies, const MotionRate& rate) {
     if (contact.restitution == 0 || contact.count != 1) {
         return false;
     }
     const ContactPoint& point = contact.points[0];
     const Levers levers = surfaces_of(contact, cores_now(point, bodies.a, bodies.b));
     const std::int64_t approach = closing_speed(contact, levers, bodies.a, bodies.b);
-    if (approach <= least_approach || point.separation > approach / rate.substeps_per_second) {
+    if (approach <= least_approach(contact.gravity_speed) ||
+        point.separation > approach / rate.substeps_per_second) {
         return false;
     }
     ContactRows rows;
-    fill_rows(contact, bodies, levers, 3, rows);
+    fill_rows(contact, bodies, levers, 1, rows);
     const std::int64_t back = fixed::multiply_shift(approach, contact.restitution, world_fraction_bits);
     const std::int64_t p = divide(bounded(approach + back, greatest_given), rows.inverses[normal_row]);
     contact.given_speed = fixed::saturating_add(contact.given_speed, p);
     accelerate(contact, rows, normal_row, p, bodies);
-    rub(contact, rows, levers, p, bodies);
+    rub(contact, levers, p, bodies);
     return true;
 }
 
 void restore_speed(Contact& contact, ContactBodies bodies, const ContactSpeeds& predicted,
-                   std::int64_t least_approach, const MotionRate& rate) {
+                   const MotionRate& rate) {
     if (contact.restitution == 0) {
         return;
     }
-    Restoring restoring(contact, bodies, predicted, least_approach, rate.substeps_per_second);
+    Restoring restoring(contact, bodies, predicted, rate.substeps_per_second);
     if (restoring.any_struck()) {
         restoring.run();
     }

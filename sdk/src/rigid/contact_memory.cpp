@@ -28,9 +28,7 @@ void forget(const RigidScene& scene, ContactMemory& memory) {
     }
     for (std::uint32_t i = 0; i < memory.count; ++i) {
         std::int64_t& push = memory.pushes[i].normal;
-        const Scaled scaled =
-            Scaled::from_fixed(static_cast<std::uint64_t>(push), world_fraction_bits) * dynamic / now;
-        push = std::min(scaled.to_i64_fixed(world_fraction_bits), greatest_push);
+        push = std::min(times(push, dynamic / now), greatest_push);
     }
 }
 
@@ -43,6 +41,32 @@ Scaled greater_inverse_mass(const RigidScene& scene, std::uint32_t body_a, std::
 Scaled greater_dynamic_inverse_mass(const RigidScene& scene, std::uint32_t body_a, std::uint32_t other) {
     return greater_of(body_a, other,
                       [&scene](std::uint32_t i) { return dynamic_inverse_mass(scene.descriptions[i]); });
+}
+
+bool is_with_sleeper(const RigidScene& scene, const ContactKey& key) {
+    return scene.bodies[key.body_a].asleep != 0 ||
+           (key.other < other_is_collider && scene.bodies[key.other].asleep != 0);
+}
+
+Scaled wall_ratio(const RigidScene& scene, const ContactKey& key) {
+    const Scaled own = greater_of(key.body_a, key.other, [&scene](std::uint32_t i) {
+        return scene.bodies[i].asleep == 0 ? inverse_mass(scene.bodies[i]) : Scaled{};
+    });
+    return own.is_zero() ? Scaled::from_u64(1) : greater_inverse_mass(scene, key.body_a, key.other) / own;
+}
+
+std::int64_t times(std::int64_t push, const Scaled& ratio) {
+    const Scaled size = Scaled::from_fixed(fixed::magnitude(push), world_fraction_bits) * ratio;
+    const std::int64_t scaled = size.to_i64_fixed(world_fraction_bits);
+    return push < 0 ? -scaled : scaled;
+}
+
+void scale_pushes(std::span<ContactPush> pushes, const Scaled& ratio) {
+    for (ContactPush& push : pushes) {
+        for (std::int64_t* part : {&push.normal, &push.across[0], &push.across[1]}) {
+            *part = std::clamp(times(*part, ratio), -greatest_push, greatest_push);
+        }
+    }
 }
 
 void forget_contacts(RigidScene& scene, std::uint32_t body) {

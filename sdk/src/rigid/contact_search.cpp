@@ -5,6 +5,7 @@
 
 #include "collide/filter.h"
 #include "collide/saturation.h"
+#include "rigid/contact_memory.h"
 #include "rigid/contact_points.h"
 #include "rigid/near_pairs.h"
 #include "rigid/piece_bounds.h"
@@ -75,9 +76,8 @@ public:
 private:
     // Of b against a.
     Vec3 way_between(std::uint32_t a, std::uint32_t other) const {
-        const Vec3 way = other >= other_is_collider
-                             ? way_in(other_body(scene_, other).velocity, world_.rate.ticks_per_second)
-                             : scene_.ways[other];
+        const Vec3 way = other >= other_is_collider ? way_in_tick(other_body(scene_, other), world_.rate)
+                                                    : scene_.ways[other];
         return saturating_subtract(way, scene_.ways[a]);
     }
 
@@ -178,6 +178,11 @@ private:
         return {collider.static_friction, collider.dynamic_friction, collider.restitution};
     }
 
+    std::int64_t gravity_speed(const Body& body, std::uint32_t index) const {
+        return body.is_dynamic() ? static_cast<std::int64_t>(fixed::length(scene_.ticks[index].gravity_step))
+                                 : 0;
+    }
+
     void add_contact(const FoundContact& found) {
         const ContactKey& key = found.key;
         while (next_memory_ < scene_.memories.size() && scene_.memories[next_memory_].key < key) {
@@ -205,11 +210,19 @@ private:
         contact.static_friction = combined_friction(own.static_friction, other.static_friction);
         contact.dynamic_friction = combined_friction(own.dynamic_friction, other.dynamic_friction);
         contact.restitution = std::max(own.restitution, other.restitution);
-        std::span<const ContactPush> old_pushes;
+        contact.gravity_speed = std::max(gravity_speed(body_a, key.body_a), gravity_speed(body_b, key.other));
+        OldContact old{{}, no_side};
+        ContactMemory beside; // as of a wall
         Direction side = no_side;
         if (known && scene_.memories[next_memory_].forgotten == 0) {
             const ContactMemory& memory = scene_.memories[next_memory_];
-            old_pushes = {memory.pushes, memory.count};
+            old = {{memory.pushes, memory.count}, memory.normal};
+            if (is_with_sleeper(scene_, key)) {
+                beside = memory;
+                scale_pushes({beside.pushes, beside.count},
+                             fixed::Scaled::from_u64(1) / wall_ratio(scene_, key));
+                old.pushes = {beside.pushes, beside.count};
+            }
             side = keeps_side(body_a, body_b) ? memory.normal : no_side;
         }
         const bool passed = against(found.manifold.normal, side);
@@ -217,7 +230,7 @@ private:
         const std::size_t first_point = scene_.contact_points.size();
         scene_.contact_points.extend_reserved(point_room(contact.every_substep, found.manifold));
         contact.points = scene_.contact_points.begin() + first_point;
-        take_manifold(contact, old_pushes, found.manifold, body_a, body_b);
+        take_manifold(contact, old, found.manifold, body_a, body_b);
         if (passed) {
             find_points(world_, contact, side);
         }
@@ -234,8 +247,10 @@ private:
         // What has just been woken is about to be pushed: its neighbours are not to stand like walls.
         const bool carried = !a.is_dynamic() || !b.is_dynamic() || a.has_woken() || b.has_woken();
         const bool comes = a.is_awake() || b.is_awake();
+        const Vec3 more = saturating_subtract(more_way(b, key.other), more_way(a, key.body_a));
+        const std::int64_t further = -fixed::dot(manifold.normal, more);
         for (std::uint32_t i = 0; (comes || carried) && i < manifold.count; ++i) {
-            const std::int64_t closing = closing_at(manifold, manifold.points[i], a, b);
+            const std::int64_t closing = closing_at(manifold, manifold.points[i], a, b) + further;
             // What comes may speed up on its way.
             const std::int64_t way = std::max<std::int64_t>(closing + closing / 4, 0);
             if ((carried || closing > per_tick(gentle_speed, world_.rate)) &&
@@ -246,6 +261,17 @@ private:
             }
         }
         return !comes;
+    }
+
+    // What a body's speed does not say of its way in this tick: beyond the limit of speeds where it is
+    // kinematic, and what it falls in a long tick.
+    Vec3 more_way(const Body& body, std::uint32_t index) const {
+        if (!body.is_dynamic()) {
+            return saturating_subtract(way_in_tick(body, world_.rate),
+                                       way_in(body.velocity, world_.rate.ticks_per_second));
+        }
+        const Vec3 fall = body.is_awake() ? fall_in_tick(scene_.ticks[index], world_.rate) : Vec3{0, 0, 0};
+        return sum_of_magnitudes(fall) > near_distance ? fall : Vec3{0, 0, 0};
     }
 
     // How far two bodies come closer there in a tick: what topples comes by its spin.

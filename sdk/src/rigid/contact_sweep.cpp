@@ -77,9 +77,62 @@ bool slides(const ContactPoint& point, std::int64_t slow_slip) {
     return fixed::normalise(Vec3{point.slip[0], point.slip[1], 0}, slip) && slip.length > slow_slip;
 }
 
+// One, of 30 fraction bits, times the quotient of two inverses of which the first is the lesser.
+std::int64_t quotient(const Inverse& lesser, const Inverse& greater) {
+    const auto ratio = static_cast<std::int64_t>((std::uint64_t{lesser.mantissa} << 30) / greater.mantissa);
+    return fixed::shift_right_rounded(ratio, std::min(lesser.shift - greater.shift, 63));
+}
+
+// The direction in which friction pushes that bears the share `a` of what both rows want: p*, of length one.
+// Of all pushes in the circle the one that leaves the least motion, weighed by the rows' weights W, is
+//
+//     p = (W + λ)⁻¹ W p*,    |p| = a,
+//
+// whose slip W (p* − p) is along p: friction pushes against what slips on. p* cut to the circle would turn a
+// plank aside that is thrown at an angle to its length. With t for λ over the greater weight, times a, and q
+// for the lesser weight over the greater, the parts of p / a are p*₁ / (a + t) and p*₂ q / (a q + t); t lies
+// between (1 − a) q and 1 − a, and 1 / |p| is all but linear in it (the secular equation: Moré and Sorensen
+// 1983).
+void turn_to_slip(const ContactRows& rows, std::int64_t most, fixed::NormalisedVector& size) {
+    constexpr std::int64_t one = direction_one;
+    constexpr std::int64_t alike = one - one / 64;
+    const Inverse& first = rows.inverses[1];
+    const Inverse& second = rows.inverses[2];
+    const bool first_is_heavier = &lesser(first, second) == &first;
+    const std::int64_t q = first_is_heavier ? quotient(first, second) : quotient(second, first);
+    if (q >= alike) {
+        return;
+    }
+    const auto times = [](std::int64_t x, std::int64_t y) { return (x * y) >> 30; };
+    const std::int64_t heavy = first_is_heavier ? size.direction.x : size.direction.y;
+    const std::int64_t light = first_is_heavier ? size.direction.y : size.direction.x;
+    const std::int64_t a = fixed::multiply_divide(most, one, size.length);
+    // 1 / |p| in units of 1 / a.
+    const auto reach = [&](std::int64_t t) {
+        const std::int64_t of_heavy = a + t;
+        const std::int64_t of_light = times(a, q) + t;
+        fixed::NormalisedVector both{{0, 0, 0}, 1};
+        fixed::normalise(Vec3{times(heavy, of_light), times(times(light, q), of_heavy), 0}, both);
+        return fixed::multiply_divide(times(of_heavy, of_light), one, both.length);
+    };
+    const std::int64_t low = times(one - a, q);
+    const std::int64_t high = one - a;
+    const std::int64_t least = reach(low);
+    const std::int64_t greatest = reach(high);
+    const std::int64_t share =
+        greatest > least
+            ? std::clamp<std::int64_t>(fixed::multiply_divide(one - least, one, greatest - least), 0, one)
+            : 0;
+    const std::int64_t t = low + times(high - low, share);
+    const std::int64_t of_heavier = times(heavy, times(a, q) + t);
+    const std::int64_t of_lighter = times(times(light, q), a + t);
+    fixed::normalise(first_is_heavier ? Vec3{of_heavier, of_lighter, 0} : Vec3{of_lighter, of_heavier, 0},
+                     size);
+}
+
 // Both rows across the normal at once, within the circle that the normal's push allows.
 void project_friction(const Contact& contact, ContactPoint& point, ContactMoves& moves,
-                      std::int64_t slow_slip) {
+                      const MotionRate& rate) {
     std::int64_t wanted[2];
     for (int t = 0; t < 2; ++t) {
         const std::int64_t slip = point.slip[t] + moved_along(contact, point.rows, 1 + t, moves);
@@ -88,8 +141,11 @@ void project_friction(const Contact& contact, ContactPoint& point, ContactMoves&
     std::int64_t most = grip(point.push.normal, contact.dynamic_friction);
     fixed::NormalisedVector size{};
     if (fixed::normalise(Vec3{wanted[0], wanted[1], 0}, size) && size.length > most) {
-        if (!slides(point, slow_slip)) {
+        if (!slides(point, (contact.gravity_speed + slow_contact) / rate.substeps_per_second)) {
             most = std::min(size.length, grip(point.push.normal, contact.static_friction));
+        }
+        if (size.length > most) {
+            turn_to_slip(point.rows, most, size);
         }
         wanted[0] = fixed::scale_component(size.direction.x, most);
         wanted[1] = fixed::scale_component(size.direction.y, most);
@@ -139,7 +195,7 @@ bool closes(const Contact& contact, const ContactBodies& bodies, std::int64_t di
     });
 }
 
-void project(Contact& contact, ContactMoves moves, bool back, std::int64_t slow_slip) {
+void project(Contact& contact, ContactMoves moves, bool back, const MotionRate& rate) {
     if (contact.active_count > 1) {
         project_middle(contact, moves);
     }
@@ -150,7 +206,7 @@ void project(Contact& contact, ContactMoves moves, bool back, std::int64_t slow_
         }
         project_normal(contact, point, moves);
         if (point.push.normal != 0 || point.push.across[0] != 0 || point.push.across[1] != 0) {
-            project_friction(contact, point, moves, slow_slip);
+            project_friction(contact, point, moves, rate);
         }
     }
 }

@@ -31,4 +31,11 @@ void for_each_attachment(lks_world& world, const Use& use) {
     }
 }
 
+// After something was pinned, or has changed its kind.
+inline void follow_masses(lks_world& world) {
+    for_each_attachment(world, [&world](Attachment& attachment, const AttachmentSides& sides) {
+        follow_masses(attachment, sides, world.rate);
+    });
+}
+
 } // namespace lks

@@ -164,8 +164,12 @@ private:
              ++contact_) {
             const Contact& contact = scene_.contacts[contact_];
             const ContactBodies bodies{scene_.bodies[pair.body_a], other_body(scene_, pair.other)};
-            pushes.given = fixed::saturating_add(pushes.given, contact.given_speed);
-            pushes.to_come = std::max(pushes.to_come, speed_to_come(contact, bodies));
+            const bool with_sleeper = is_with_sleeper(scene_, contact.key);
+            const auto counted = [&](std::int64_t speed) {
+                return with_sleeper ? times(speed, wall_ratio(scene_, contact.key)) : speed;
+            };
+            pushes.given = fixed::saturating_add(pushes.given, counted(contact.given_speed));
+            pushes.to_come = std::max(pushes.to_come, counted(speed_to_come(contact, bodies)));
             keep_place(contact, scene_.contact_marks[contact_], bodies, pushes);
         }
         return pushes;
@@ -301,7 +305,7 @@ void record_break(lks_world& world, const Attachment& attachment, std::uint32_t 
         event.body_a = body_id(world.rigid, attachment.description.other);
     }
     const AttachmentSides sides = sides_of(world, attachment);
-    event.strength = mean_strength(world, attachment.pushed, greater_inverse_mass(attachment, sides));
+    event.strength = mean_strength(world, attachment.pushed, attachment.constants.greater_inverse_mass);
     set_place(event, particle_position(sides.object, attachment.description.particle), {0, 0, 0});
     add(world, event);
 }

@@ -35,6 +35,9 @@ void find_ranges(RigidScene& scene) {
             range.is_held =
                 range.is_held || !scene.bodies[d.body_a].is_awake() || !scene.bodies[d.body_b].is_awake();
         });
+        for_each_part(scene, range, Part::attachment, [&](std::uint32_t attachment) {
+            range.is_pinned = range.is_pinned || !scene.attachments[attachment].constants.moves_particle();
+        });
         for_each_part(scene, range, Part::tree, [&](std::uint32_t tree) {
             range.is_loaded = range.is_loaded || scene.trees[tree].is_loaded;
         });

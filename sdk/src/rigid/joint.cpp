@@ -171,12 +171,12 @@ void add_up_pushes(Joint& joint, const Body& a, const Body& b) {
     joint.turned = joint.turned + joint.turn + limit_push(joint, a, b) + joint.grip + joint.drag;
 }
 
-bool undo_error(const Joint& joint, Body& a, Body& b) {
+bool undo_error(const Joint& joint, Body& a, Body& b, bool pinned) {
     undo_turn(joint, a, b);
     const bool far_off = undo_limits(joint, a, b);
     if (is_distance(joint)) {
         undo_distance(joint, a, b);
-    } else if (keeps_push(joint) && !joint.in_tree) {
+    } else if (keeps_push(joint) && !joint.in_tree && !pinned) {
         Vec3 error = joint_offset(joint, a, b);
         clamp_vector(error, greatest_step);
         push_apart(joint, a, b, -solve(joint.inverse, error));
@@ -185,6 +185,7 @@ bool undo_error(const Joint& joint, Body& a, Body& b) {
     for (Body* body : {&a, &b}) {
         if (body->is_awake()) {
             body->orientation = normalise(body->orientation);
+            body->follow_orientation();
         }
     }
     return far_off;

@@ -184,9 +184,10 @@ void project(Joint& joint, Body& a, Body& b);
 
 // Once velocities are known.
 void add_up_pushes(Joint& joint, const Body& a, const Body& b);
-// What is left of its errors, without giving speed: of turns, limits, and of points that no tree holds. True:
-// a limit was exceeded by more than half a degree.
-bool undo_error(const Joint& joint, Body& a, Body& b);
+// What is left of its errors, without giving speed: of turns, limits, and of points that no tree holds, but
+// for a figure that a pinned particle holds, which would be drawn off it. True: a limit was exceeded by more
+// than half a degree.
+bool undo_error(const Joint& joint, Body& a, Body& b, bool pinned);
 // Its load over the last tick is more than it bears.
 bool breaks(const Joint& joint);
 

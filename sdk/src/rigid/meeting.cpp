@@ -20,6 +20,7 @@ constexpr std::int64_t least_overshoot = greatest_depth / 100;
 constexpr std::int64_t close_enough = greatest_depth / 10;
 
 constexpr int greatest_step_count = 8;
+constexpr int more_step_count = 16; // where halving has not told
 
 // Shapes are to stay within what collide() can measure: 64 m.
 constexpr std::int64_t longest_way = std::int64_t{64} << world_fraction_bits;
@@ -62,36 +63,79 @@ private:
     // By the normal as it is.
     bool goes_in() const { return closing() > std::max<std::int64_t>(out_.gap, 0) + least_overshoot; }
 
+    // A place on the way, and what its tangent says of the distance elsewhere: never too much.
+    struct Place {
+        std::int32_t part;
+        std::int64_t closing;
+        Manifold manifold;
+    };
+    Place place(std::int32_t part) const { return {part, closing(), out_}; }
+
     // If nothing on the way overlaps, leaves out_ where they are closest.
     bool passes(const Manifold& first) {
         look(direction_one);
         if (out_.gap < -depth_ || closing() >= -least_overshoot) {
             return out_.gap >= -depth_;
         }
-        Manifold before = first;
-        Manifold behind = out_;
-        std::int32_t low = 0;
-        std::int32_t high = direction_one;
-        for (int step = 0; step < greatest_step_count; ++step) {
-            const std::int32_t middle = low + (high - low) / 2;
-            look(middle);
+        Place behind = place(direction_one);
+        out_ = first;
+        Place before = place(0);
+        for (int step = 0; step < greatest_step_count + more_step_count; ++step) {
+            std::int32_t next = before.part + (behind.part - before.part) / 2;
+            if (step >= greatest_step_count) {
+                // Something thin may be between them: the lowest place that both tangents leave.
+                std::int64_t least = 0;
+                next = lowest(before, behind, least);
+                if (least >= -depth_ || next == before.part || next == behind.part) {
+                    leave(before, behind, first);
+                    return true;
+                }
+            }
+            look(next);
             if (out_.gap < -depth_) {
                 return false;
             }
-            if (closing() >= 0) {
-                low = middle;
-                before = out_;
-            } else {
-                high = middle;
-                behind = out_;
+            (closing() >= 0 ? before : behind) = place(next);
+        }
+        return false;
+    }
+
+    // Where the tangents of a place that comes closer and of one behind it that parts meet, and how high that
+    // is.
+    static std::int32_t lowest(const Place& before, const Place& behind, std::int64_t& least) {
+        const std::int32_t width = behind.part - before.part;
+        // Both slopes are of the whole way.
+        const std::int64_t fall = before.closing;
+        const std::int64_t rise = -behind.closing;
+        const auto part_of = [](std::int64_t slope, std::int64_t part) {
+            return fixed::multiply_shift(slope, part, direction_fraction_bits);
+        };
+        // From `before` on: fall · x = gap - (gap behind - rise · (width - x)).
+        const std::int64_t drop = before.manifold.gap - behind.manifold.gap + part_of(rise, width);
+        const std::int64_t along = drop <= 0 ? 0 : fixed::multiply_divide(drop, direction_one, fall + rise);
+        const auto x = static_cast<std::int32_t>(std::min<std::int64_t>(along, width));
+        least = before.manifold.gap - part_of(fall, x);
+        return before.part + x;
+    }
+
+    // What still holds it before the edge, if that lets it go; else what is behind it, but for what that
+    // only seems to overlap where they begin.
+    void leave(const Place& before, const Place& behind, const Manifold& first) {
+        out_ = before.manifold;
+        if (before.closing <= out_.gap + depth_) {
+            return;
+        }
+        out_ = behind.manifold;
+        if (first.gap < -depth_) {
+            return;
+        }
+        std::uint32_t kept = 0;
+        for (std::uint32_t i = 0; i < out_.count; ++i) {
+            if (out_.points[i].separation >= -depth_) {
+                out_.points[kept++] = out_.points[i];
             }
         }
-        // What still holds it before the edge, if that lets it go.
-        out_ = before;
-        if (closing() > out_.gap + depth_) {
-            out_ = behind;
-        }
-        return true;
+        out_.count = kept;
     }
 
     // From out_ at the beginning to where they overlap.

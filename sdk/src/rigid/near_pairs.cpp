@@ -56,9 +56,9 @@ private:
                 scene_.pieces.push_reserved(placed);
                 scene_.piece_extents.push_reserved(extent(placed));
             }
-            scene_.travels.push_reserved(per_tick(spin_speed(body, description.radius), world_.rate) +
-                                         fall(i));
-            scene_.ways.push_reserved(way_in(body.velocity, world_.rate.ticks_per_second));
+            scene_.travels.push_reserved(
+                turn_in(body, description.radius, world_.rate.ticks_per_second, world_.rate) + fall(i));
+            scene_.ways.push_reserved(way_in_tick(body, world_.rate));
         }
     }
 
@@ -67,10 +67,7 @@ private:
         if (!scene_.bodies[index].is_awake()) {
             return 0;
         }
-        const std::int64_t step = sum_of_magnitudes(scene_.ticks[index].gravity_step);
-        const std::int64_t speed = fixed::saturate_to_int64(
-            fixed::multiply_signed(step, static_cast<std::int64_t>(world_.rate.substeps)));
-        const std::int64_t way = per_tick(speed, world_.rate);
+        const std::int64_t way = sum_of_magnitudes(fall_in_tick(scene_.ticks[index], world_.rate));
         return std::max<std::int64_t>(0, way - near_distance);
     }
 

@@ -301,6 +301,9 @@ void apply(Body& body, const Move& move) {
 }
 
 void push(Body& body, const RowSide& side, const Vec3& p_normal, std::int64_t p, int sign) {
+    if (side.share == 0) {
+        return; // others may read it at the same time
+    }
     Move move;
     add_push(move, {{}, side.turn}, side.share, side.turn_shift, p_normal, p, sign);
     apply(body, move);

@@ -42,6 +42,11 @@ Inverse invert(std::int64_t weight);
 // value / W to the nearest, of values below 2^56; saturates.
 std::int64_t divide(std::int64_t value, const Inverse& inverse);
 
+// The one by which less is left of a value.
+inline const Inverse& lesser(const Inverse& a, const Inverse& b) {
+    return a.shift != b.shift ? (a.shift > b.shift ? a : b) : (a.mantissa < b.mantissa ? a : b);
+}
+
 // One body's part in a row.
 struct RowSide {
     fixed::Direction turn; // Ĵ(r̂×n), or Ĵn

@@ -33,7 +33,7 @@ Piece piece_of_collider(const Body& body, const ColliderState& collider, const V
         // The point of the plane that is nearest to the reference: the plane's own may be anywhere.
         const Direction up = plane_normal(body.rotation);
         const std::int64_t lift = world_height_above_plane(up, body.position, reference);
-        constexpr std::int64_t limit = std::int64_t{128} << world_fraction_bits;
+        constexpr std::int64_t limit = std::int64_t{16384} << world_fraction_bits; // beyond any way of a tick
         piece.centre = -fixed::scale(up, std::clamp(lift, -limit, limit));
     } else {
         piece.centre = saturating_subtract(body.position, reference);

@@ -36,13 +36,10 @@ Object& coupled_object(lks_world& world, std::uint32_t index) {
 
 RigidSubstep::RigidSubstep(lks_world& world, Team* team)
     : world_(world), scene_(world.rigid), team_(team), rate_(world.rate) {
-    // What a substep of gravity alone gives a body is no impact, and no sliding.
     const fixed::Vec3& g = world.gravity;
     const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
-    constexpr std::int64_t slow = (std::int64_t{1} << world_fraction_bits) / 100; // m/s
     const std::int64_t gravity_speed = (size(g.x) + size(g.y) + size(g.z)) / rate_.substeps_per_second;
-    least_approach_ = 4 * gravity_speed + slow;
-    slow_slip_ = (gravity_speed + slow) / rate_.substeps_per_second;
+    least_speed_ = 2 * least_approach(gravity_speed);
     for (const Contact& contact : scene_.contacts) {
         any_restitution_ = any_restitution_ || contact.restitution != 0;
     }
@@ -180,7 +177,7 @@ void RigidSubstep::strike_all() {
         again = false;
         for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
             Contact& contact = scene_.contacts[pass % 2 == 0 ? i : scene_.contacts.size() - 1 - i];
-            again = strike(contact, bodies_of(contact), least_approach_, rate_) || again;
+            again = strike(contact, bodies_of(contact), rate_) || again;
         }
     }
 }
@@ -242,13 +239,12 @@ void RigidSubstep::carry_pushes_on() {
     });
     static_cast<void>(scene_.substep_motions.resize(scene_.bodies.size())); // within their room
     in_figures([this](const FigureRange& figure) { measure_motions(scene_, figure); });
-    const std::int64_t least_speed = 2 * least_approach_;
     static_cast<void>(scene_.figure_shares.resize(scene_.figure_ranges.size())); // within its room
     in_figures([&](const FigureRange& figure) {
         scene_.figure_shares[static_cast<std::size_t>(&figure - scene_.figure_ranges.begin())] =
-            share_to_add(scene_, figure, rate_, least_speed);
+            share_to_add(scene_, figure, rate_, least_speed_);
     });
-    if (scale_carried_pushes(scene_, rate_, least_speed)) {
+    if (scale_carried_pushes(scene_, rate_, least_speed_)) {
         in_bundles([this](const FigureBundle& bundle) { solve_trees(bundle); });
     }
 }
@@ -289,7 +285,7 @@ Move& RigidSubstep::move_of(std::uint32_t other) {
 void RigidSubstep::project_contact(std::uint32_t index, bool back) {
     if (scene_.acts(index)) {
         Contact& contact = scene_.contacts[index];
-        project(contact, {move_of(contact.key.body_a), move_of(contact.key.other)}, back, slow_slip_);
+        project(contact, {move_of(contact.key.body_a), move_of(contact.key.other)}, back, rate_);
     }
 }
 
@@ -554,7 +550,7 @@ void RigidSubstep::restore_speeds() {
     for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
         if (scene_.acts(i)) {
             Contact& contact = scene_.contacts[i];
-            restore_speed(contact, bodies_of(contact), predicted_speeds(contact), least_approach_, rate_);
+            restore_speed(contact, bodies_of(contact), predicted_speeds(contact), rate_);
         }
     }
     for (Body& body : scene_.bodies) {
@@ -627,10 +623,10 @@ void RigidSubstep::finish() {
         }
     };
     in_figures([&](const FigureRange& figure) {
-        for_each_joint(figure, [](Joint& joint, Body& a, Body& b) {
+        for_each_joint(figure, [&](Joint& joint, Body& a, Body& b) {
             add_up_pushes(joint, a, b);
             if (!joint.in_tree) {
-                undo_error(joint, a, b);
+                undo_error(joint, a, b, figure.is_pinned);
             }
         });
         for_each_part(scene_, figure, Part::contact, undo);

@@ -81,8 +81,7 @@ private:
     RigidScene& scene_;
     Team* team_;
     MotionRate rate_;
-    std::int64_t least_approach_;
-    std::int64_t slow_slip_; // of a substep
+    std::int64_t least_speed_; // of figures whose carried pushes are worth scaling
     bool any_restitution_ = false;
 };
 

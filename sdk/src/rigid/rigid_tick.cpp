@@ -5,6 +5,7 @@
 #include "fixed/formats.h"
 #include "rigid/articulation.h"
 #include "rigid/body_motion.h"
+#include "rigid/contact_memory.h"
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"
 #include "rigid/figure_overlaps.h"
@@ -249,9 +250,13 @@ private:
                 memory.pushes[memory.count++] = point.push;
             }
         }
-        if (memory.count != 0) {
-            add_memory(memory);
+        if (memory.count == 0) {
+            return;
         }
+        if (is_with_sleeper(scene_, memory.key)) {
+            scale_pushes({memory.pushes, memory.count}, wall_ratio(scene_, memory.key));
+        }
+        add_memory(memory);
     }
 
     lks_world& world_;

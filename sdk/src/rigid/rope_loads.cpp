@@ -171,8 +171,7 @@ private:
             return {};
         }
         const Scaled motion = Scaled::from_fixed(static_cast<std::uint64_t>(load.motion), 30);
-        return Scaled::from_u64(1) /
-               (motion * greater_inverse_mass(attachment, sides_of(world_, attachment)));
+        return Scaled::from_u64(1) / (motion * attachment.constants.greater_inverse_mass);
     }
 
     void take_along(const RopeLoad& load, Attachment& attachment) {
@@ -204,6 +203,7 @@ private:
             Body& body = scene_.bodies[d.other];
             lks::push(body, attachment.side, push, 1);
             body.orientation = normalise(body.orientation);
+            body.follow_orientation();
         }
     }
 

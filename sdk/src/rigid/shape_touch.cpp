@@ -67,6 +67,16 @@ void drop_what_stays_apart(Manifold& manifold, const Vec3& way, std::int64_t spi
     manifold.count = kept;
 }
 
+// What gravity adds to the way of a substep, beyond what is near: in long ones.
+std::int64_t fall_in_substep(const lks_world& world, std::uint32_t body) {
+    const RigidScene& scene = world.rigid;
+    const auto n = static_cast<std::int64_t>(world.rate.substeps_per_second);
+    return scene.bodies[body].is_awake()
+               ? std::max<std::int64_t>(0,
+                                        sum_of_magnitudes(scene.ticks[body].gravity_step) / n - near_distance)
+               : 0;
+}
+
 } // namespace
 
 bool touches(const PiecePair& pieces, const BodyPair& bodies, const Vec3& way, std::int64_t spins,
@@ -107,14 +117,19 @@ void find_points(const lks_world& world, Contact& contact, const Direction& side
                             a.position);
     const auto n = static_cast<std::int64_t>(world.rate.substeps_per_second);
     const std::int64_t radius_b = with_collider ? reach(piece_b) : scene.descriptions[other].radius;
-    const std::int64_t motion = (greatest_speed(a, description.radius) + greatest_speed(b, radius_b)) / n;
-    const std::int64_t spins = (spin_speed(a, description.radius) + spin_speed(b, radius_b)) / n;
+    const std::int64_t falls =
+        fall_in_substep(world, contact.key.body_a) + (with_collider ? 0 : fall_in_substep(world, other));
+    const std::int64_t spins =
+        turn_in(a, description.radius, n, world.rate) + turn_in(b, radius_b, n, world.rate);
+    const Vec3 way = way_in_substep(a, b, world.rate);
+    const std::int64_t motion =
+        falls + std::max((greatest_speed(a, description.radius) + greatest_speed(b, radius_b)) / n,
+                         sum_of_magnitudes(way) + spins);
     Manifold manifold;
     manifold.normal = contact.normal();
     manifold.count = 0;
     const bool keeps = keeps_side(a, b);
-    const Vec3 way = way_in(saturating_subtract(b.velocity, a.velocity), n);
-    const std::int64_t room = spins + near_distance + (keeps ? aside(sum_of_magnitudes(way)) : 0);
+    const std::int64_t room = spins + falls + near_distance + (keeps ? aside(sum_of_magnitudes(way)) : 0);
     if (piece_b.kind == LKS_SHAPE_PLANE ||
         !passes_by(saturating_subtract(piece_b.centre, piece_a.centre), way,
                    room_around(extent(piece_a), extent(piece_b), room))) {
@@ -125,7 +140,7 @@ void find_points(const lks_world& world, Contact& contact, const Direction& side
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         old_pushes[i] = contact.points[i].push;
     }
-    take_manifold(contact, {old_pushes, contact.count}, manifold, a, b);
+    take_manifold(contact, {{old_pushes, contact.count}, contact.normal()}, manifold, a, b);
 }
 
 void find_points_again(const lks_world& world, Contact& contact) {

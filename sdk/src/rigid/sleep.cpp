@@ -110,14 +110,21 @@ bool has_stayed(const Body& body) {
            sum_of_magnitudes(half_turn_between(body.rest_orientation, body.orientation)) <= still_turn;
 }
 
+// Turns by more than a radian or so a tick: where it is turned to then says nothing, as it may have gone
+// round.
+bool whirls(const Body& body, const StepRate& rate) {
+    return sum_of_magnitudes(body.angular_velocity) >> world_fraction_bits >=
+           static_cast<std::int64_t>(rate.ticks_per_second);
+}
+
 // Counts for how long a body has trembled at one place, or crept. A twitch of a limb takes back some of it, a
 // real motion all. Slow is a pendulum, too, where it turns: of what hangs or floats only the time counts that
 // it has stayed.
-void count_rest(Body& body, std::int64_t radius, bool hangs, std::uint32_t most) {
+void count_rest(Body& body, std::int64_t radius, bool hangs, std::uint32_t most, const StepRate& rate) {
     constexpr std::int64_t slow = (std::int64_t{1} << world_fraction_bits) / 10;
     constexpr std::int64_t fast = (std::int64_t{1} << world_fraction_bits) / 2;
     constexpr std::uint32_t twitch = 8 * rest_of_tick;
-    const bool stayed = has_stayed(body);
+    const bool stayed = has_stayed(body) && !whirls(body, rate);
     if (!stayed) {
         body.rest_position = body.position;
         body.rest_orientation = body.orientation;
@@ -232,7 +239,10 @@ void wake_islands(lks_world& world) {
     // First the roots, then those that follow them: an awake body wakes its root.
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].is_dynamic() && scene.bodies[i].asleep == 0) {
-            scene.bodies[islands.root(i)].asleep = 0;
+            Body& root = scene.bodies[islands.root(i)];
+            if (root.asleep != 0) {
+                wake(root);
+            }
         }
     }
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
@@ -255,9 +265,9 @@ void fall_asleep(lks_world& world) {
         Body& body = scene.bodies[i];
         if (body.is_awake()) {
             const bool alone = hangs(i);
-            count_rest(body, scene.descriptions[i].radius, alone, most_factor * enough);
+            count_rest(body, scene.descriptions[i].radius, alone, most_factor * enough, world.rate);
             if (body.touched && body.rest >= calming && scene.descriptions[i].never_sleeps == 0 &&
-                returns(body, scene.descriptions[i].radius)) {
+                !whirls(body, world.rate) && returns(body, scene.descriptions[i].radius)) {
                 calm(body);
             }
             ready = ready || body.rest >= enough;

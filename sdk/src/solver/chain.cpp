@@ -341,17 +341,17 @@ private:
     }
 
     // Whether any tension is more than a chain stands by itself. Adds the multipliers to those that are
-    // carried.
+    // carried. Tensions are those of this iteration: where bend is swept between two, it and the rope push
+    // against each other in each, and their sum grows with no tension behind it.
     bool stiffen(bool again) const {
-        const std::int64_t* tensions = work_.multipliers;
         if (arrays_.multipliers != nullptr) {
             for (std::uint32_t j = 0; j < count_; ++j) {
                 std::int64_t& sum = arrays_.multipliers[chain_.constraints[j]];
                 sum = bounded(fixed::saturating_add(sum, work_.multipliers[j]), multiplier_limit);
-                work_.tensions[j] = sum;
             }
-            tensions = work_.tensions;
-        } else if (again) {
+        }
+        const std::int64_t* tensions = work_.multipliers;
+        if (again) {
             for (std::uint32_t j = 0; j < count_; ++j) {
                 work_.tensions[j] = bounded(work_.tensions[j] + work_.multipliers[j], multiplier_limit);
             }

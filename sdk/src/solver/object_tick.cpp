@@ -216,16 +216,28 @@ private:
             }
             sweep_stretch();
             sweep_stretch();
+            forget_multipliers();
             mend_chain(coefficients_.chain, stretch, arrays, *world_.kernels, memory);
         }
     }
 
-    // Before it is mended, a rope that was torn when the substep began.
+    // Before it is mended for the first time, a rope that was torn when the substep began.
     void keep_torn() {
-        began_torn_ = is_torn(coefficients_.chain, start_arrays());
+        if (!began_torn_) {
+            began_torn_ = is_torn(coefficients_.chain, start_arrays());
+            if (began_torn_) {
+                kept_rope().keep();
+            }
+        }
         may_give_way_ = began_torn_ && candidate_count_ != 0;
-        if (began_torn_) {
-            kept_rope().keep();
+    }
+
+    // What pushed it to where it is mended from is no tension of it.
+    void forget_multipliers() {
+        if (!object_.multipliers.empty()) {
+            for (const std::uint32_t constraint : coefficients_.chain.constraints) {
+                object_.multipliers[constraint] = 0;
+            }
         }
     }
 

@@ -148,10 +148,11 @@ void lks_world::forget_assets(std::size_t count) {
 
 Object* lks_world::make_object(const KnownAsset& known, bool record_forces) const {
     auto* object = lks::create<Object>(allocator, allocator, *known.asset, *known.coefficients);
-    // Λ is carried from one iteration to the next where anything is soft or a rope's tension counts;
-    // otherwise only for its read-out.
+    // Λ is carried from one iteration to the next where anything is soft or a rope's tension counts, and from
+    // one solve of a soft rope to the next in an iteration; otherwise only for its read-out.
+    const lks::ChainCoefficients& chain = known.coefficients->chain;
     const bool carried = !known.coefficients->relaxations.empty() ||
-                         (rate.iterations > 1 && !known.coefficients->chain.empty());
+                         (!chain.empty() && (rate.iterations > 1 || chain.softness != 0));
     if (object != nullptr && !object->allocate(record_forces, record_forces || carried, keep_previous)) {
         destroy_object(object);
         return nullptr;

@@ -260,7 +260,9 @@ private:
                world_.rigid.reserve_joints(header_.joint_slots);
     }
 
-    RigidCounts counts() const { return {header_.body_slots, header_.joint_slots, header_.contact_count}; }
+    RigidCounts counts() const {
+        return {header_.body_slots, header_.joint_slots, header_.contact_count, header_.collider_slots};
+    }
 
     bool is_present(std::size_t slot, const Object* object) const {
         return slot < world_.objects.size() && world_.objects[slot].object == object;

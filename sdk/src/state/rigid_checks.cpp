@@ -1,6 +1,7 @@
 #include "state/rigid_checks.h"
 
 #include <cstddef>
+#include <cstring>
 
 #include "api/body_checks.h"
 #include "api/joint_checks.h"
@@ -99,8 +100,21 @@ bool RigidChecks::moves_within_reach(const unsigned char* at) const {
     return check_body_motion(world_, body, body.target_position, narrow(body.target_orientation)) == LKS_OK;
 }
 
+// Who sleeps does not move, and is no kinematic one.
+bool RigidChecks::sleeps_still(const unsigned char* at, std::uint32_t kind) {
+    std::uint32_t asleep = 0;
+    std::int64_t speeds[6];
+    static_assert(offsetof(BodyState, angular_velocity) ==
+                  offsetof(BodyState, velocity) + sizeof(speeds) / 2);
+    std::memcpy(&asleep, at + offsetof(BodyState, asleep), sizeof(asleep));
+    std::memcpy(speeds, at + offsetof(BodyState, velocity), sizeof(speeds)); // nought in any order of bytes
+    const std::int64_t any = speeds[0] | speeds[1] | speeds[2] | speeds[3] | speeds[4] | speeds[5];
+    return asleep == 0 || (any == 0 && kind != LKS_BODY_KINEMATIC);
+}
+
 bool RigidChecks::body(const unsigned char* at, std::uint32_t kind) const {
-    return body_ranges_.hold(at) && is_unit(at + offsetof(BodyState, orientation)) &&
+    return body_ranges_.hold(at) && sleeps_still(at, kind) &&
+           is_unit(at + offsetof(BodyState, orientation)) &&
            is_unit(at + offsetof(BodyState, target_orientation)) &&
            is_unit(at + offsetof(BodyState, rest_orientation)) &&
            (kind != LKS_BODY_KINEMATIC || moves_within_reach(at));
@@ -116,14 +130,13 @@ bool RigidChecks::joint(const unsigned char* at, const fixed::Rotation& known_ta
     return target == known_target || fixed::normalise(target) == target;
 }
 
-bool RigidChecks::contact(const ContactMemory& memory, const Array<Loaded>& bodies) {
+bool RigidChecks::contact(const ContactMemory& memory, const Array<Loaded>& bodies, std::uint32_t colliders) {
     const ContactKey& key = memory.key;
     const auto exists = [&bodies](std::uint32_t body) {
         return body < bodies.size() && bodies[body] != Loaded::nothing;
     };
-    const bool other_exists = key.other >= other_is_collider
-                                  ? (key.other & ~other_is_collider) < LKS_MAX_COLLIDERS
-                                  : key.other > key.body_a && exists(key.other);
+    const bool other_exists = key.other >= other_is_collider ? (key.other & ~other_is_collider) < colliders
+                                                             : key.other > key.body_a && exists(key.other);
     return exists(key.body_a) && other_exists && key.shapes < LKS_MAX_BODY_SHAPES * LKS_MAX_BODY_SHAPES &&
            memory.count >= 1 && memory.count <= greatest_point_count && is_direction(memory.normal) &&
            memory.forgotten <= 1;

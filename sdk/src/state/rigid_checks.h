@@ -19,12 +19,13 @@ public:
     // A BodyState of a body of this kind, a JointState.
     bool body(const unsigned char* at, std::uint32_t kind) const;
     bool joint(const unsigned char* at, const fixed::Rotation& known_target) const;
-    // Between a body and a later one, both there, or a collider.
-    static bool contact(const ContactMemory& memory, const Array<Loaded>& bodies);
+    // Between a body and a later one, both there, or one of so many places for colliders.
+    static bool contact(const ContactMemory& memory, const Array<Loaded>& bodies, std::uint32_t colliders);
     // So many of a ContactPush.
     bool pushes(const unsigned char* at, std::uint32_t count) const;
 
 private:
+    static bool sleeps_still(const unsigned char* at, std::uint32_t kind);
     // As lks_body_move_to would have it.
     bool moves_within_reach(const unsigned char* at) const;
 

@@ -126,12 +126,12 @@ public:
     }
 
     // It is read at once, into what only a tick needs.
-    bool check_contact(const RigidChecks& checks, std::uint32_t index) {
+    bool check_contact(const RigidChecks& checks, std::uint32_t index, std::uint32_t colliders) {
         ContactMemory* memories = scene_.next_memories.data();
         ContactMemory& memory = memories[index];
         Reading reading(in_);
         contact_fields(reading, memory);
-        if (!RigidChecks::contact(memory, scene_.loaded_bodies)) {
+        if (!RigidChecks::contact(memory, scene_.loaded_bodies, colliders)) {
             return false;
         }
         const std::uint32_t count = memory.count;
@@ -228,9 +228,11 @@ void resize(Array<T>& array, std::size_t size) {
 
 } // namespace
 
-RigidCounts rigid_counts(const RigidScene& scene) {
+RigidCounts rigid_counts(const lks_world& world) {
+    const RigidScene& scene = world.rigid;
     return {static_cast<std::uint32_t>(scene.bodies.size()), static_cast<std::uint32_t>(scene.joints.size()),
-            static_cast<std::uint32_t>(scene.memories.size())};
+            static_cast<std::uint32_t>(scene.memories.size()),
+            static_cast<std::uint32_t>(world.colliders.size())};
 }
 
 std::size_t rigid_image_size(const RigidScene& scene) {
@@ -299,7 +301,7 @@ bool check_rigid(ByteReader& in, const RigidCounts& counts, lks_world& world, co
         return false;
     }
     for (index = 0; index < counts.memories; ++index) {
-        if (!loader.check_contact(checks, index)) {
+        if (!loader.check_contact(checks, index, counts.colliders)) {
             return false;
         }
     }

@@ -21,9 +21,10 @@ struct RigidCounts {
     std::uint32_t bodies;
     std::uint32_t joints;
     std::uint32_t memories;
+    std::uint32_t colliders;
 };
 
-RigidCounts rigid_counts(const RigidScene& scene);
+RigidCounts rigid_counts(const lks_world& world);
 std::size_t rigid_image_size(const RigidScene& scene);
 void write_rigid(ByteWriter& out, const RigidScene& scene);
 // Checks every value, and marks what is new to the world. False: one is out of range; `what` and `index` say

@@ -90,7 +90,7 @@ void write_image(const lks_world& world, unsigned char* memory) {
     out.u32(0);
     out.u32(static_cast<std::uint32_t>(world.objects.size()));
     out.u32(static_cast<std::uint32_t>(world.colliders.size()));
-    const RigidCounts counts = rigid_counts(world.rigid);
+    const RigidCounts counts = rigid_counts(world);
     out.u32(counts.bodies);
     out.u32(counts.joints);
     out.u32(counts.memories);

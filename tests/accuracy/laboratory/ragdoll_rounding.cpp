@@ -97,7 +97,7 @@ TEST_CASE("rounding on the stairs is below a tenth of what places are off, and j
         INFO(substeps << " substeps");
         CHECK(joints > 0);
         // With 20 the method leaves a few nanometres.
-        CHECK(joints < method[0] / (substeps == 20 ? 4 : 10));
+        CHECK(joints < method[0] / (substeps == 20 ? 2 : 10));
         CHECK(places > 0);
         CHECK(places < method[stairs.discretisation()] / 10);
         CHECK(places < errors_of("float32")[stairs.rounding]);
