@@ -200,37 +200,46 @@ public:
         }
     }
 
-    // Once velocities are known: each point that has struck parts as restitution has it, and no point that
-    // pushed pulls. What all owe alike is given at their middle first.
-    void restore_speed(Body& body_a, Body& body_b, Scalar least_approach, Scalar rate) const {
-        const auto has_struck = [&](const Point& point) {
-            return point.push != 0 && point.approach > least_approach;
-        };
-        std::vector<Owed> owed;
-        bool all_struck = true;
-        bool any_struck = false;
-        for (const Point& point : points) {
+    // Whether an impact that gives back speed is due in this substep.
+    bool is_about_to_strike(const Body& body_a, const Body& body_b, Scalar least_approach,
+                            Scalar rate) const {
+        return restitution != 0 && std::any_of(points.begin(), points.end(), [&](const Point& point) {
+                   const Scalar approach = closing_speed(levers_now(point, body_a, body_b), body_a, body_b);
+                   return approach > least_approach && point.separation <= approach / rate;
+               });
+    }
+
+    // Once velocities are known, of all contacts: each point that has struck parts as restitution has it, and
+    // no point that pushed pulls.
+    void begin_impact(const Body& body_a, const Body& body_b, Scalar least_approach, Scalar rate) {
+        owed_.clear();
+        std::size_t struck_count = 0;
+        for (Point& point : points) {
             if (restitution == 0 || !point.active) {
                 continue;
             }
             const Levers levers = levers_at_prediction(point, body_a, body_b);
-            const bool struck = has_struck(point);
+            const bool struck = point.push != 0 && point.approach > least_approach;
             const Scalar before = closing(levers, body_a.predicted_velocity, body_a.predicted_spin,
                                           body_b.predicted_velocity, body_b.predicted_spin);
             const Scalar parting = struck ? before * restitution : -closing_speed(levers, body_a, body_b);
-            owed.push_back({&point, levers, struck, parting, -point.push * rate, 0});
-            all_struck = all_struck && struck;
-            any_struck = any_struck || struck;
+            owed_.push_back({&point, levers, struck, parting, -point.push * rate, 0});
+            struck_count += struck ? 1 : 0;
         }
-        if (!any_struck) {
-            return;
+        all_struck_ = struck_count == owed_.size();
+        if (struck_count == 0) {
+            owed_.clear();
         }
-        if (all_struck && owed.size() > 1) {
-            give_alike(owed, body_a, body_b);
+    }
+    // What all owe alike is given at their middle first.
+    void give_alike(Body& body_a, Body& body_b) {
+        if (all_struck_ && owed_.size() > 1) {
+            give_alike(owed_, body_a, body_b);
         }
-        constexpr int most_rounds = 16;
-        for (int round = 0; round < most_rounds && give_each(owed, body_a, body_b); ++round) {}
-        for (const Owed& one : owed) {
+    }
+    bool give_each(Body& body_a, Body& body_b) { return give_each(owed_, body_a, body_b); }
+    void rub_by_impact(Body& body_a, Body& body_b) const {
+        for (const Owed& one : owed_) {
             if (one.given > 0) {
                 rub_at_once(one.levers, one.given, body_a, body_b);
             }
@@ -487,6 +496,8 @@ private:
         set_rub(point, wanted);
     }
 
+    std::vector<Owed> owed_; // of an impact
+    bool all_struck_ = false;
     std::array<Vec, 2> across_;
     PushRow<Scalar> middle_;
     Scalar middle_gap_ = 0;

@@ -184,9 +184,7 @@ private:
             body.predicted_spin = body.spin;
             motion_.finish(body);
         }
-        parts_.for_each_contact([this](Contact& contact, Body& a, Body& b) {
-            contact.restore_speed(a, b, least_approach(contact), rate_);
-        });
+        restore_speeds();
         parts_.for_each_joint([this](const Joint& joint, Body& a, Body& b) {
             if (!joint.in_tree) {
                 joint.undo_turn(a, b);
@@ -213,18 +211,45 @@ private:
         parts_.finish_substep();
     }
 
-    // An impact may cause the next one: forward and back, until nothing strikes any more.
+    // An impact may cause the next one: forward and back, until nothing strikes any more. What several strike
+    // at once takes them together, behind the sweeps.
     void strike_all() {
+        std::vector<int> impacts(bodies_.size());
+        for (const Contact& contact : contacts_) {
+            if (contact.is_about_to_strike(bodies_[contact.a], bodies_[contact.b], least_approach(contact),
+                                           rate_)) {
+                ++impacts[contact.a];
+                ++impacts[contact.b];
+            }
+        }
+        const auto takes_one = [&](std::size_t i) { return !bodies_[i].moves || impacts[i] < 2; };
         bool again = true;
         for (int pass = 0; pass < 8 && again; ++pass) {
             again = false;
             for (std::size_t i = 0; i < contacts_.size(); ++i) {
                 Contact& contact = contacts_[pass % 2 == 0 ? i : contacts_.size() - 1 - i];
-                again =
-                    contact.strike(bodies_[contact.a], bodies_[contact.b], least_approach(contact), rate_) ||
-                    again;
+                if (takes_one(contact.a) && takes_one(contact.b)) {
+                    again = contact.strike(bodies_[contact.a], bodies_[contact.b], least_approach(contact),
+                                           rate_) ||
+                            again;
+                }
             }
         }
+    }
+
+    // All contacts together.
+    void restore_speeds() {
+        parts_.for_each_contact([this](Contact& contact, Body& a, Body& b) {
+            contact.begin_impact(a, b, least_approach(contact), rate_);
+        });
+        parts_.for_each_contact([](Contact& contact, Body& a, Body& b) { contact.give_alike(a, b); });
+        bool more = true;
+        for (int round = 0; round < 32 && more; ++round) {
+            more = false;
+            parts_.for_each_contact(
+                [&](Contact& contact, Body& a, Body& b) { more = contact.give_each(a, b) || more; });
+        }
+        parts_.for_each_contact([](Contact& contact, Body& a, Body& b) { contact.rub_by_impact(a, b); });
     }
 
     // Of figures that take(figure) names; held ones with their turns or by rows.

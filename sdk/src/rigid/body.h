@@ -79,6 +79,7 @@ struct Body : BodyState {
     fixed::Vec3 previous_position;
     fixed::Rotation previous_rotation;
 
+    std::uint32_t impacts; // of a substep: how many contacts are about to strike it
     // For events: whether it was asleep when that was last looked at.
     bool known_asleep;
 

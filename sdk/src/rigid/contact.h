@@ -83,7 +83,11 @@ struct ContactPoint {
     // at its beginning, and how far they have slid.
     std::int64_t gap;
     std::int64_t slip[2];
+    // Of an impact that gives back speed, World m/s: how fast it is to part, and what it was given.
+    std::int64_t parting;
+    std::int64_t given;
     bool active; // in the substep
+    bool struck;
 };
 
 struct Contact {
@@ -107,6 +111,7 @@ struct Contact {
     // What it carried on from the substep before has done to its bodies, where they are awake.
     Move carried_a, carried_b;
     std::uint32_t active_count;
+    std::uint32_t struck_count;
     ContactPoint* points; // in RigidScene::contact_points
 
     const fixed::Direction& normal() const { return directions[normal_row]; }
@@ -165,9 +170,11 @@ void take_manifold(Contact& contact, const OldContact& old, const Manifold& mani
                    const Body& b);
 // Before the bodies are predicted.
 void begin_substep(Contact& contact, const Body& a, const Body& b, const MotionRate& rate);
+// Whether an impact that gives back speed is due in this substep: before the bodies are predicted.
+bool is_about_to_strike(const Contact& contact, const ContactBodies& bodies, const MotionRate& rate);
 // An impact of two single points that give back speed, before the bodies are predicted: the impulse that
-// reverses their approach. True where there was one. Impacts of several points at once are left to
-// restore_speed: a box would take them one after the other and spin.
+// reverses their approach. True where there was one. Impacts of several points at once are left to what
+// follows the sweeps: a box would take them one after the other and spin.
 bool strike(Contact& contact, ContactBodies bodies, const MotionRate& rate);
 // Once the bodies are predicted and joints have pushed: its rows. Then: what they pushed in the substep
 // before, on one of its bodies.
@@ -183,9 +190,17 @@ void project(Contact& contact, ContactMoves moves, bool back, const MotionRate& 
 bool closes(const Contact& contact, const ContactBodies& bodies, std::int64_t distance);
 // For events: what it pushed in this substep.
 void add_up_pushes(Contact& contact, const MotionRate& rate);
-// Once velocities are known; `predicted`: before anything was pushed.
-void restore_speed(Contact& contact, ContactBodies bodies, const ContactSpeeds& predicted,
-                   const MotionRate& rate);
+// Once velocities are known, of all contacts: each of a contact's points parts as restitution wants it to
+// where it pushes, and pushes nothing where it parts faster: what it pushed may be taken back, no more. So
+// the work of all of them is what of it restitution does not give back. `predicted`: before anything was
+// pushed.
+void begin_impact(Contact& contact, const ContactBodies& bodies, const ContactSpeeds& predicted);
+// What all its points owe alike, at their middle: one after the other they turn what comes down flat.
+void give_alike(Contact& contact, ContactBodies bodies);
+// One after the other. Whether any was given anything that is worth another round.
+bool give_each(Contact& contact, ContactBodies bodies, const MotionRate& rate);
+// Last: what was given rubs.
+void rub_by_impact(Contact& contact, ContactBodies bodies);
 // For events, World m/s: what it has yet to give where it pushes and they still close, as if nobody else did.
 std::int64_t speed_to_come(const Contact& contact, const ContactBodies& bodies);
 // Last: overlaps that do not part by a motion, by moving bodies without giving them speed.

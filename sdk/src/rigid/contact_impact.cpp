@@ -58,135 +58,58 @@ bool has_struck(const ContactPoint& point, std::int64_t least_approach) {
     return point.active && point.push.normal != 0 && point.approach > least_approach;
 }
 
-// Gives back speed at a contact's points, so that each of them parts as restitution wants it to where it
-// pushes, and pushes nothing where it parts faster: what it pushed may be taken back, no more. So the work of
-// all of them is what of it restitution does not give back.
-class Restoring {
+// A contact's points where its rows were made: only so does what is given back do as much work as what was
+// taken.
+class ImpactLevers {
 public:
-    Restoring(Contact& contact, const ContactBodies& bodies, const ContactSpeeds& predicted,
-              std::int64_t substeps_per_second)
-        : contact_(contact), bodies_(bodies) {
-        const fixed::Matrix3 turned_a = fixed::to_matrix(narrow(bodies.a.predicted_orientation));
-        const fixed::Matrix3 turned_b = fixed::to_matrix(narrow(bodies.b.predicted_orientation));
-        for (std::uint32_t i = 0; i < contact.count; ++i) {
-            const ContactPoint& point = contact.points[i];
-            if (!point.active) {
-                continue;
-            }
-            const bool struck = has_struck(point, least_approach(contact.gravity_speed));
-            struck_count_ += struck ? 1u : 0u;
-            // Where it was when its rows were made: only so does what is given back do as much work as what
-            // was taken.
-            const Levers levers = surfaces_of(
-                contact, {fixed::rotate(turned_a, point.core_a), fixed::rotate(turned_b, point.core_b)});
-            const std::int64_t parting =
-                struck ? fixed::multiply_shift(closing_speed(contact, levers, predicted), contact.restitution,
-                                               world_fraction_bits)
-                       : -closing_speed(contact, levers, now());
-            points_[count_++] = {
-                i, struck, levers, parting, -fixed::multiply_shift(point.push.normal, substeps_per_second, 0),
-                0};
-        }
-    }
+    ImpactLevers(const Contact& contact, const ContactBodies& bodies)
+        : contact_(contact), turned_a_(fixed::to_matrix(narrow(bodies.a.predicted_orientation))),
+          turned_b_(fixed::to_matrix(narrow(bodies.b.predicted_orientation))) {}
 
-    bool any_struck() const { return struck_count_ > 0; }
-
-    void run() {
-        // What all points owe alike is given at their middle: one after the other they turn what comes down
-        // flat.
-        if (struck_count_ > 1 && struck_count_ == count_) {
-            give_alike();
-        }
-        constexpr int most_rounds = 16;
-        for (int round = 0; round < most_rounds && give_each(); ++round) {}
-        rub_each();
+    Levers of(const ContactPoint& point) const {
+        return surfaces_of(contact_,
+                           {fixed::rotate(turned_a_, point.core_a), fixed::rotate(turned_b_, point.core_b)});
     }
 
 private:
-    struct Point {
-        std::uint32_t index;
-        bool struck;
-        Levers levers;
-        std::int64_t parting; // World m/s: how fast it is to part
-        std::int64_t least;   // what it may be given: less than nothing where it has pushed
-        std::int64_t given;
-    };
-
-    ContactSpeeds now() const { return {bodies_.a.speeds(), bodies_.b.speeds()}; }
-
-    std::int64_t owed(const Point& point) const {
-        return bounded(point.parting + closing_speed(contact_, point.levers, now()), greatest_given);
-    }
-
-    void give_alike() {
-        std::int64_t sum = 0;
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            sum += owed(points_[i]);
-        }
-        const std::int64_t speed = sum / static_cast<std::int64_t>(count_);
-        if (speed > 0) {
-            const std::int64_t p = divide(speed, contact_.middle.inverses[normal_row]);
-            accelerate(contact_, contact_.middle, normal_row, p, bodies_);
-            for (std::uint32_t i = 0; i < count_; ++i) {
-                points_[i].given = p / count_;
-            }
-            contact_.given_speed = fixed::saturating_add(contact_.given_speed, p);
-        }
-    }
-
-    // Whether anybody was given anything that is worth another round.
-    bool give_each() {
-        constexpr std::int64_t little = std::int64_t{1} << (world_fraction_bits - 14);
-        constexpr std::int64_t most_given = std::int64_t{1} << 60;
-        bool more = false;
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            Point& point = points_[i];
-            const ContactRows& rows = contact_.points[point.index].rows;
-            const std::int64_t speed = owed(point);
-            const std::int64_t wanted =
-                fixed::saturating_add(point.given, divide(speed, rows.inverses[normal_row]));
-            const std::int64_t most = point.struck ? most_given : 0;
-            const std::int64_t p = std::clamp(wanted, point.least, most) - point.given;
-            if (p != 0) {
-                accelerate(contact_, rows, normal_row, p, bodies_);
-                point.given += p;
-                contact_.given_speed = fixed::saturating_add(contact_.given_speed, p);
-                more = more || !within(speed, little);
-            }
-        }
-        return more;
-    }
-
-    // What pushed in the substep rubbed then.
-    void rub_each() {
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            const Point& point = points_[i];
-            if (point.given > 0) {
-                rub(contact_, point.levers, point.given, bodies_);
-            }
-        }
-    }
-
-    Contact& contact_;
-    const ContactBodies& bodies_;
-    Point points_[greatest_point_count];
-    std::uint32_t count_ = 0;
-    std::uint32_t struck_count_ = 0;
+    const Contact& contact_;
+    fixed::Matrix3 turned_a_;
+    fixed::Matrix3 turned_b_;
 };
+
+ContactSpeeds speeds_now(const ContactBodies& bodies) {
+    return {bodies.a.speeds(), bodies.b.speeds()};
+}
+
+std::int64_t owed(const Contact& contact, const ContactPoint& point, const Levers& levers,
+                  const ContactBodies& bodies) {
+    return bounded(point.parting + closing_speed(contact, levers, speeds_now(bodies)), greatest_given);
+}
 
 } // namespace
 
+bool is_about_to_strike(const Contact& contact, const ContactBodies& bodies, const MotionRate& rate) {
+    if (contact.restitution == 0) {
+        return false;
+    }
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        const ContactPoint& point = contact.points[i];
+        const Levers levers = surfaces_of(contact, cores_now(point, bodies.a, bodies.b));
+        const std::int64_t approach = closing_speed(contact, levers, bodies.a, bodies.b);
+        if (approach > least_approach(contact.gravity_speed) &&
+            point.separation <= approach / rate.substeps_per_second) {
+            return true;
+        }
+    }
+    return false;
+}
+
 bool strike(Contact& contact, ContactBodies bodies, const MotionRate& rate) {
-    if (contact.restitution == 0 || contact.count != 1) {
+    if (contact.count != 1 || !is_about_to_strike(contact, bodies, rate)) {
         return false;
     }
-    const ContactPoint& point = contact.points[0];
-    const Levers levers = surfaces_of(contact, cores_now(point, bodies.a, bodies.b));
+    const Levers levers = surfaces_of(contact, cores_now(contact.points[0], bodies.a, bodies.b));
     const std::int64_t approach = closing_speed(contact, levers, bodies.a, bodies.b);
-    if (approach <= least_approach(contact.gravity_speed) ||
-        point.separation > approach / rate.substeps_per_second) {
-        return false;
-    }
     ContactRows rows;
     fill_rows(contact, bodies, levers, 1, rows);
     const std::int64_t back = fixed::multiply_shift(approach, contact.restitution, world_fraction_bits);
@@ -197,14 +120,79 @@ bool strike(Contact& contact, ContactBodies bodies, const MotionRate& rate) {
     return true;
 }
 
-void restore_speed(Contact& contact, ContactBodies bodies, const ContactSpeeds& predicted,
-                   const MotionRate& rate) {
+void begin_impact(Contact& contact, const ContactBodies& bodies, const ContactSpeeds& predicted) {
+    contact.struck_count = 0;
     if (contact.restitution == 0) {
         return;
     }
-    Restoring restoring(contact, bodies, predicted, rate.substeps_per_second);
-    if (restoring.any_struck()) {
-        restoring.run();
+    const ImpactLevers levers(contact, bodies);
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        ContactPoint& point = contact.points[i];
+        point.given = 0;
+        point.struck = has_struck(point, least_approach(contact.gravity_speed));
+        contact.struck_count += point.struck ? 1u : 0u;
+        const Levers at = levers.of(point);
+        point.parting = point.struck ? fixed::multiply_shift(closing_speed(contact, at, predicted),
+                                                             contact.restitution, world_fraction_bits)
+                                     : -closing_speed(contact, at, speeds_now(bodies));
+    }
+}
+
+void give_alike(Contact& contact, ContactBodies bodies) {
+    if (contact.struck_count < 2 || contact.struck_count != contact.active_count) {
+        return;
+    }
+    const ImpactLevers levers(contact, bodies);
+    const auto count = static_cast<std::int64_t>(contact.active_count);
+    std::int64_t sum = 0;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        const ContactPoint& point = contact.points[i];
+        sum += point.active ? owed(contact, point, levers.of(point), bodies) : 0;
+    }
+    if (sum / count <= 0) {
+        return;
+    }
+    const std::int64_t p = divide(sum / count, contact.middle.inverses[normal_row]);
+    accelerate(contact, contact.middle, normal_row, p, bodies);
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        contact.points[i].given = contact.points[i].active ? p / count : 0;
+    }
+    contact.given_speed = fixed::saturating_add(contact.given_speed, p);
+}
+
+bool give_each(Contact& contact, ContactBodies bodies, const MotionRate& rate) {
+    constexpr std::int64_t little = std::int64_t{1} << (world_fraction_bits - 14);
+    constexpr std::int64_t most_given = std::int64_t{1} << 60;
+    const ImpactLevers levers(contact, bodies);
+    bool more = false;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        ContactPoint& point = contact.points[i];
+        if (!point.active) {
+            continue;
+        }
+        const std::int64_t speed = owed(contact, point, levers.of(point), bodies);
+        const std::int64_t wanted =
+            fixed::saturating_add(point.given, divide(speed, point.rows.inverses[normal_row]));
+        const std::int64_t least = -fixed::multiply_shift(point.push.normal, rate.substeps_per_second, 0);
+        const std::int64_t p = std::clamp(wanted, least, point.struck ? most_given : 0) - point.given;
+        if (p != 0) {
+            accelerate(contact, point.rows, normal_row, p, bodies);
+            point.given += p;
+            contact.given_speed = fixed::saturating_add(contact.given_speed, p);
+            more = more || !within(speed, little);
+        }
+    }
+    return more;
+}
+
+// What pushed in the substep rubbed then.
+void rub_by_impact(Contact& contact, ContactBodies bodies) {
+    const ImpactLevers levers(contact, bodies);
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        const ContactPoint& point = contact.points[i];
+        if (point.active && point.given > 0) {
+            rub(contact, levers.of(point), point.given, bodies);
+        }
     }
 }
 
