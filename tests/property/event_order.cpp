@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 #include "support/events.h"
@@ -68,13 +69,10 @@ TEST_CASE(
     for (int i = 0; i < 4; ++i) {
         const lks_object_id object = world.add(rope, at(2 + 0.3 * i, 3, 0));
         world.pin(object, 0);
-        lks_attachment_def hold = lks_default_attachment_def();
-        hold.object = object;
-        hold.vertex = 6;
-        hold.body = add_body(world, ball_shape(0.1), fixed(2.5 + 0.3 * i, 3, 0));
+        const lks_body_id weight = add_body(world, ball_shape(0.1), fixed(2.5 + 0.3 * i, 3, 0));
+        lks_attachment_def hold = to_body(object, 6, weight);
         hold.break_force = fixed(30);
-        lks_attachment_id id{};
-        REQUIRE(lks_world_add_attachment(world, &hold, &id) == LKS_OK);
+        attach(world, hold);
     }
     for (int i = 0; i < 2; ++i) {
         Net net;

@@ -5,30 +5,13 @@
 #include <cmath>
 #include <vector>
 
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 
 using namespace support;
 
 namespace {
-
-lks_attachment_id attach(World& world, const lks_attachment_def& def) {
-    lks_attachment_id id{};
-    const lks_result result = lks_world_add_attachment(world, &def, &id);
-    INFO(world.message());
-    REQUIRE(result == LKS_OK);
-    return id;
-}
-
-lks_attachment_def to_body(lks_object_id object, std::uint32_t vertex, lks_body_id body,
-                           const lks_vec3& point) {
-    lks_attachment_def def = lks_default_attachment_def();
-    def.object = object;
-    def.vertex = vertex;
-    def.body = body;
-    def.point = point;
-    return def;
-}
 
 Vector force_of(const World& world, lks_attachment_id id) {
     lks_vec3 force{};

@@ -131,6 +131,24 @@ void put_u64(Image& image, std::size_t place, std::uint64_t value) {
     }
 }
 
+std::uint64_t get_u64(const Image& image, std::size_t place) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 8; i-- > 0;) {
+        value = value << 8 | image.bytes()[place + i];
+    }
+    return value;
+}
+
+// The first 64-bit word of that value behind the checksum.
+std::size_t find_u64(const Image& image, std::uint64_t value) {
+    std::size_t place = lks::image_checked_from;
+    while (get_u64(image, place) != value) {
+        place += 8;
+        REQUIRE(place + 8 <= image.size());
+    }
+    return place;
+}
+
 void put_right_checksum(Image& image) {
     put_u64(image, 24, Small::checksum_of(image));
 }
@@ -247,17 +265,7 @@ TEST_CASE("an image whose kinematic body is farther from its target than a tick 
     add_body(world, ball_shape(0.5), fixed(8000000, 6, 4));
     const Image good = world.save();
     // The first of these is its position, its target comes later.
-    std::size_t word = lks::image_checked_from;
-    const auto value_at = [&](std::size_t at) {
-        std::uint64_t value = 0;
-        for (std::size_t i = 8; i-- > 0;) {
-            value = value << 8 | good.bytes()[at + i];
-        }
-        return value;
-    };
-    while (value_at(word) != static_cast<std::uint64_t>(place.x)) {
-        word += 8;
-    }
+    const std::size_t word = find_u64(good, static_cast<std::uint64_t>(place.x));
     for (const lks_fixed x : {-place.x, place.x - fixed(101), LKS_FIXED(0)}) {
         Image bad = good;
         put_u64(bad, word, static_cast<std::uint64_t>(x));
@@ -284,9 +292,7 @@ TEST_CASE("an image whose contact names a collider that the image has not got is
     std::size_t at = lks::image_checked_from;
     int found = 0;
     for (std::size_t i = at; i + 8 <= good.size(); i += 4) {
-        std::uint64_t value = 0;
-        std::memcpy(&value, good.bytes() + i, 8);
-        if (value == pair) {
+        if (get_u64(good, i) == pair) {
             at = i;
             ++found;
         }
@@ -314,18 +320,10 @@ TEST_CASE("an image whose sleeper moves is refused") {
         REQUIRE(lks_body_transform(world, box, &transform) == LKS_OK);
         return transform.position.y;
     }();
-    std::size_t word = lks::image_checked_from;
-    const auto value_at = [&](std::size_t at) {
-        std::uint64_t value = 0;
-        std::memcpy(&value, good.bytes() + at, 8);
-        return value;
-    };
-    while (value_at(word) != static_cast<std::uint64_t>(y)) {
-        word += 8;
-    }
+    const std::size_t word = find_u64(good, static_cast<std::uint64_t>(y));
     const std::size_t velocity = word - 8 + offsetof(lks::BodyState, velocity);
     for (std::size_t part = 0; part < 6; ++part) {
-        REQUIRE(value_at(velocity + 8 * part) == 0);
+        REQUIRE(get_u64(good, velocity + 8 * part) == 0);
         for (const std::uint64_t speed : {std::uint64_t{1}, std::uint64_t{0} - 1, std::uint64_t{1} << 41}) {
             Image bad = good;
             put_u64(bad, velocity + 8 * part, speed);
