@@ -66,7 +66,8 @@ LKS_API uint32_t lks_world_has_collider(const lks_world* world, lks_collider_id 
  * particles, and what a plane rises by beyond 32 m a substep leaves them below it, to come up later. Of
  * sleeping bodies it wakes those that it touches, and whose filters meet its own. */
 LKS_API lks_result lks_collider_move_to(lks_world* world, lks_collider_id collider, lks_transform target);
-/* Puts it there at once, without a motion. */
+/* Puts it there at once, without a motion. Where any point of it goes further than two centimetres, what
+ * touched it meets it anew, from whichever side it is on then. */
 LKS_API lks_result lks_collider_set_transform(lks_world* world, lks_collider_id collider,
                                               lks_transform transform);
 /* Where it is, metres in the world: a target of lks_collider_move_to is reached by the next tick. */
