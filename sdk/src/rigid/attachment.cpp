@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "collide/saturation.h"
+#include "fixed/world_times.h"
 #include "rigid/body_motion.h"
 #include "rigid/make_body.h"
 #include "rigid/push_limits.h"
@@ -103,14 +104,9 @@ void follow_masses(Attachment& attachment, const AttachmentSides& sides, const S
     }
     const Scaled ratio = now / before;
     const std::int64_t greatest_sum = greatest_push * static_cast<std::int64_t>(rate.substeps);
-    const auto follow = [&](std::int64_t& push) {
-        const Scaled size = Scaled::from_fixed(fixed::magnitude(push), world_fraction_bits) * ratio;
-        const std::int64_t scaled = std::min(size.to_i64_fixed(world_fraction_bits), greatest_sum);
-        push = push < 0 ? -scaled : scaled;
-    };
-    follow(attachment.pushed.x);
-    follow(attachment.pushed.y);
-    follow(attachment.pushed.z);
+    for (std::int64_t* sum : {&attachment.pushed.x, &attachment.pushed.y, &attachment.pushed.z}) {
+        *sum = std::clamp(times(*sum, ratio), -greatest_sum, greatest_sum);
+    }
 }
 
 void begin_tick(Attachment& attachment, const AttachmentSides& sides, const StepRate& rate) {

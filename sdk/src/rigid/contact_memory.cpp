@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fixed/formats.h"
+#include "fixed/world_times.h"
 #include "rigid/make_body.h"
 #include "rigid/push_limits.h"
 
@@ -53,12 +53,6 @@ Scaled wall_ratio(const RigidScene& scene, const ContactKey& key) {
         return scene.bodies[i].asleep == 0 ? inverse_mass(scene.bodies[i]) : Scaled{};
     });
     return own.is_zero() ? Scaled::from_u64(1) : greater_inverse_mass(scene, key.body_a, key.other) / own;
-}
-
-std::int64_t times(std::int64_t push, const Scaled& ratio) {
-    const Scaled size = Scaled::from_fixed(fixed::magnitude(push), world_fraction_bits) * ratio;
-    const std::int64_t scaled = size.to_i64_fixed(world_fraction_bits);
-    return push < 0 ? -scaled : scaled;
 }
 
 void scale_pushes(std::span<ContactPush> pushes, const Scaled& ratio) {

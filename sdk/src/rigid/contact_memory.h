@@ -20,7 +20,6 @@ fixed::Scaled greater_dynamic_inverse_mass(const RigidScene& scene, std::uint32_
 bool is_with_sleeper(const RigidScene& scene, const ContactKey& key);
 // How many times that is his own.
 fixed::Scaled wall_ratio(const RigidScene& scene, const ContactKey& key);
-std::int64_t times(std::int64_t push, const fixed::Scaled& ratio);
 void scale_pushes(std::span<ContactPush> pushes, const fixed::Scaled& ratio);
 
 // Before a body is put elsewhere, or becomes another: its contacts push nothing on, and end with the next

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fixed/world_times.h"
 #include "rigid/contact_memory.h"
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"

@@ -4,6 +4,7 @@
 
 #include "collide/saturation.h"
 #include "fixed/formats.h"
+#include "fixed/world_times.h"
 #include "rigid/body_motion.h"
 
 namespace lks {
@@ -54,12 +55,6 @@ BodyShape make_shape(const lks_body_shape& from) {
 
 Scaled magnitude(std::int64_t value) {
     return Scaled::from_fixed(fixed::magnitude(value), world_fraction_bits);
-}
-
-// value · factor with its sign, World.
-std::int64_t times(std::int64_t value, const Scaled& factor) {
-    const std::int64_t result = (magnitude(value) * factor).to_i64_fixed(world_fraction_bits);
-    return value < 0 ? -result : result;
 }
 
 // a·b − c·d, World.
