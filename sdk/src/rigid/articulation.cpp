@@ -148,7 +148,7 @@ public:
             fold_error(part, part.child_is_a ? -apart : apart);
         });
         for_each_joint([&](ArticulatedJoint& part, Joint& joint) {
-            const Vec3 push = range_.is_uneven ? push_uneven(scene_, part) : push_of(part);
+            const Vec3 push = range_.is_uneven ? push_uneven(scene_, range_, part) : push_of(part);
             use(joint, multiply_32(part.pair_share, part.child_is_a ? -push : push));
         });
         for_each_body([this](Body& body, ArticulatedBody& part) {
@@ -283,7 +283,7 @@ private:
     // `apart`: how far the child's point is from the parent's.
     void fold_error(ArticulatedJoint& part, const Vec3& apart) {
         if (range_.is_uneven) {
-            fold_uneven(scene_, part, apart);
+            fold_uneven(scene_, range_, part, apart);
             return;
         }
         ArticulatedBody& parent = scene_.articulated[part.parent];

@@ -80,6 +80,9 @@ struct ArticulatedTree {
     bool is_held;   // by a joint to what does not move, or by a rope that such a thing holds
     bool is_loaded; // it hangs on ropes that bear it
     bool is_uneven; // one of its bodies has a hundred times the mass of another, and more
+    // How often its longest lever is twice as long as those of most trees at most: what pushes there turns by
+    // as much more.
+    int lever_doublings;
 };
 
 } // namespace lks

@@ -13,7 +13,8 @@ namespace {
 
 using fixed::Vec3;
 
-// Bodies thinner than this, and joints further out, would leave 64 bits.
+// Bodies thinner than this would leave 64 bits, and joints further out. What counts is the inverse inertia
+// times the square of the lever: of what is as thick as long, levers may be longer.
 constexpr std::int32_t greatest_inverse_shift = 14;
 constexpr std::int64_t farthest_lever = 8;
 
@@ -37,11 +38,21 @@ std::int64_t share_of(const InverseMass& part, const InverseMass& whole, int mor
     return static_cast<std::int64_t>(std::min(share, std::uint64_t{1} << (32 + more_bits)));
 }
 
-bool is_near(const Body& body, const Vec3& point) {
+// As a power of two: how often the farthest lever would have to be doubled to reach the point.
+int doublings_to(const Body& body, const Vec3& point) {
     const std::int64_t unit = body.scale >= 0 ? std::int64_t{1} << (world_fraction_bits + body.scale)
                                               : (std::int64_t{1} << world_fraction_bits) >> -body.scale;
+    const std::int64_t distance = sum_of_magnitudes(point);
+    int doublings = 0;
+    while (distance >> doublings > farthest_lever * unit) {
+        ++doublings;
+    }
+    return doublings;
+}
+
+bool is_near(const Body& body, const Vec3& point) {
     return !body.is_awake() || (body.inverse_shift <= greatest_inverse_shift &&
-                                sum_of_magnitudes(point) <= farthest_lever * unit);
+                                2 * doublings_to(body, point) <= greatest_inverse_shift - body.inverse_shift);
 }
 
 class Trees {
@@ -228,9 +239,24 @@ private:
         const bool held = mark_held(begin_joints, anchored);
         scene_.trees.push_reserved({begin, static_cast<std::uint32_t>(scene_.tree_bodies.size()),
                                     begin_joints, static_cast<std::uint32_t>(scene_.tree_joints.size()), held,
-                                    loaded, uneven});
+                                    loaded, uneven, find_doublings(begin_joints)});
         any_held_ = any_held_ || held;
         any_uneven_ = any_uneven_ || uneven;
+    }
+
+    // Of the joints of the tree that begins there.
+    int find_doublings(std::size_t joint) const {
+        int most = 0;
+        for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
+            const JointDescription& d = scene_.joints[scene_.tree_joints[i].joint].description;
+            for (const bool on_a : {true, false}) {
+                const Body& body = scene_.bodies[on_a ? d.body_a : d.body_b];
+                if (body.is_awake()) {
+                    most = std::max(most, doublings_to(body, on_a ? d.point_a : d.point_b));
+                }
+            }
+        }
+        return most;
     }
 
     // Of the bodies of the tree that begins there.

@@ -9,6 +9,7 @@
 #include "rigid/body_motion.h"
 #include "rigid/joint_limits.h"
 #include "rigid/joint_turns.h"
+#include "rigid/uneven_tree.h"
 
 namespace lks {
 namespace {
@@ -171,7 +172,7 @@ public:
 
 private:
     std::int64_t greatest_point_push() const {
-        return range_.is_uneven ? greatest_uneven_push : greatest_push;
+        return range_.is_uneven ? greatest_push_of(range_) : greatest_push;
     }
     static Vec3 direction_32(const RopeLoad& load) {
         constexpr std::int64_t up = std::int64_t{1} << (tree_fraction_bits - direction_fraction_bits);

@@ -132,11 +132,11 @@ void factor_uneven(RigidScene& scene, const ArticulatedTree& tree) {
     UnevenTree(scene, tree).factor();
 }
 
-void fold_uneven(RigidScene& scene, ArticulatedJoint& part, const Vec3& apart) {
+void fold_uneven(RigidScene& scene, const ArticulatedTree& tree, ArticulatedJoint& part, const Vec3& apart) {
     const UnevenJoint& fine = UnevenTree::uneven_joint(scene, part);
     ArticulatedBody& parent = scene.articulated[part.parent];
     part.push = -solved(fine, left_apart(scene, part, apart));
-    clamp_vector(part.push, greatest_uneven_push);
+    clamp_vector(part.push, greatest_push_of(tree));
     const std::int64_t pushes[3] = {part.push.x, part.push.y, part.push.z};
     for (int axis = 0; axis < 3; ++axis) {
         parent.shift = parent.shift - multiply_40(pushes[axis], fine.column_shift[axis]);
@@ -144,7 +144,7 @@ void fold_uneven(RigidScene& scene, ArticulatedJoint& part, const Vec3& apart) {
     }
 }
 
-Vec3 push_uneven(RigidScene& scene, const ArticulatedJoint& part) {
+Vec3 push_uneven(RigidScene& scene, const ArticulatedTree& tree, const ArticulatedJoint& part) {
     const UnevenJoint& fine = UnevenTree::uneven_joint(scene, part);
     const ArticulatedBody& parent = scene.articulated[part.parent];
     const auto along = [&](int axis) {
@@ -152,7 +152,7 @@ Vec3 push_uneven(RigidScene& scene, const ArticulatedJoint& part) {
                     dot_40(fine.column_turn[axis], parent.torque));
     };
     Vec3 push = part.push + solved(fine, {along(0), along(1), along(2)});
-    clamp_vector(push, greatest_uneven_push);
+    clamp_vector(push, greatest_push_of(tree));
     push_at_joint(scene, part, push);
     return push;
 }

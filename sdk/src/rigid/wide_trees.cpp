@@ -51,9 +51,9 @@ const ArticulatedTree* only_tree(const RigidScene& scene, const FigureRange& fig
     return figure.count(Part::tree) == 1 ? &scene.trees[index_of(scene.figure_parts[first])] : nullptr;
 }
 
-// Those that aren't are solved otherwise, or pushed by what is no joint of theirs.
+// Those that aren't are solved otherwise, pushed by what is no joint of theirs, or turned beyond 2^62.
 bool is_plain(const ArticulatedTree& tree) {
-    return !tree.is_uneven && !tree.is_loaded;
+    return !tree.is_uneven && !tree.is_loaded && tree.lever_doublings == 0;
 }
 
 bool fits_lanes(const RigidScene& scene, const ArticulatedTree& tree) {
