@@ -18,6 +18,15 @@ struct ArticulatedInverse {
     std::int64_t turn[6];
 };
 
+// The mass of the heaviest body (rigid/heavy_sides.h): of it and what hangs on it away from the root, behind
+// the two of its joints that lead away to the heaviest, and of all others.
+struct HeavySides {
+    std::int64_t beyond;
+    std::int64_t behind_first;
+    std::int64_t behind_second;
+    std::int64_t before;
+};
+
 struct ArticulatedBody {
     std::int64_t share;      // of the tree's greatest inverse mass
     std::int64_t fine_share; // the same with 40 fraction bits: of uneven trees
@@ -30,6 +39,7 @@ struct ArticulatedBody {
     // World.
     fixed::Vec3 anchor_point;
     std::int64_t anchor_way;
+    HeavySides heavy;        // while trees are found
     bool loads_rope;         // by its attachments, which then leave the tree as it is (rigid/rope_loads.h)
     std::uint32_t tree;      // or none
     std::uint32_t rope_load; // its first, or none
@@ -77,7 +87,9 @@ struct ArticulatedTree {
     std::uint32_t body_end;
     std::uint32_t first_joint;
     std::uint32_t joint_end;
-    bool is_held;   // by a joint to what does not move, or by a rope that such a thing holds
+    // By a joint to what does not move, by a rope that such a thing holds, or a light body by heavy ones on
+    // both sides: what joints turn is solved with their points (rigid/held_tree.h).
+    bool is_held;
     bool is_loaded; // it hangs on ropes that bear it
     bool is_uneven; // one of its bodies has a hundred times the mass of another, and more
     // How often its longest lever is twice as long as those of most trees at most: what pushes there turns by

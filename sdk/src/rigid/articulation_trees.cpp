@@ -4,6 +4,7 @@
 #include "memory/sort_numbers.h"
 #include "rigid/articulation.h"
 #include "rigid/body_roots.h"
+#include "rigid/heavy_sides.h"
 #include "rigid/rope_loads.h"
 #include "rigid/taut_anchors.h"
 #include "rigid/uneven_tree.h"
@@ -236,7 +237,8 @@ private:
         if (uneven) {
             find_fine_shares(begin, lightest);
         }
-        const bool held = mark_held(begin_joints, anchored);
+        const bool held =
+            mark_held(begin_joints, anchored || lies_between_heavy_bodies(scene_, begin, begin_joints));
         scene_.trees.push_reserved({begin, static_cast<std::uint32_t>(scene_.tree_bodies.size()),
                                     begin_joints, static_cast<std::uint32_t>(scene_.tree_joints.size()), held,
                                     loaded, uneven, find_doublings(begin_joints)});
@@ -284,7 +286,8 @@ private:
         return body.rope_load != no_rope_load && scene_.rope_loads[body.rope_load].anchored;
     }
 
-    // The joints of the tree that begins there, where one of them is to what does not move, or a rope is.
+    // The joints of the tree that begins there, where something holds it or one of them is to what does not
+    // move.
     bool mark_held(std::size_t joint, bool held) {
         for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
             held = held || !scene_.tree_joints[i].child_moves;

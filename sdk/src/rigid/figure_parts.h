@@ -31,6 +31,7 @@ struct FigureRange {
     std::uint32_t begins[part_kinds + 1];
     InverseMass heaviest; // of its heaviest body
     bool is_held;         // by a joint to what does not move
+    bool has_held_tree;   // of which what joints turn is solved with their points (rigid/held_tree.h)
     bool is_pinned;       // by an attachment to a particle that does not move
     bool is_loaded;       // its trees hang on ropes that bear them (rigid/rope_loads.h)
     bool relieved;        // in this substep: it had iterations more

@@ -40,6 +40,7 @@ void find_ranges(RigidScene& scene) {
         });
         for_each_part(scene, range, Part::tree, [&](std::uint32_t tree) {
             range.is_loaded = range.is_loaded || scene.trees[tree].is_loaded;
+            range.has_held_tree = range.has_held_tree || scene.trees[tree].is_held;
         });
         range.heaviest = heaviest_of(scene, range);
         for_each_part(scene, range, Part::body, [&](std::uint32_t body) {

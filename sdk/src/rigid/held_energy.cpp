@@ -154,6 +154,8 @@ public:
         });
         if (holder != nullptr && together) {
             take_out_gain(*holder);
+        } else if (holder == nullptr && is_pushed_from_outside()) {
+            take_out_gain(Body{});
         }
     }
 
@@ -281,6 +283,19 @@ private:
     static bool pushes(const Contact& contact) {
         return std::any_of(contact.points, contact.points + contact.count,
                            [](const ContactPoint& point) { return point.active && point.push.normal != 0; });
+    }
+
+    bool is_pushed_from_outside() const {
+        bool pushed = false;
+        for (const Part kind : {Part::contact, Part::shared_contact}) {
+            for_each(kind, [&](std::uint32_t i) {
+                const ContactKey& key = scene_.contacts[i].key;
+                const bool within =
+                    is_part(key.body_a) && key.other < other_is_collider && is_part(key.other);
+                pushed = pushed || (!within && pushes(scene_.contacts[i]));
+            });
+        }
+        return pushed;
     }
 
     // Bones of its own, and what stands as its holder does.

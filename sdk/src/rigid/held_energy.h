@@ -22,9 +22,10 @@ struct lks_world;
 
 namespace lks {
 
-// Once velocities are known, of a figure that is held. Where it has gained it is looked at what has pushed
-// it. Where that may have given it energy it is left alone: what moves otherwise than its holder, particles,
-// several holders that move differently. Springs may give what they do by their pushes times the motion.
+// Once velocities are known, of a figure that is held, or that something outside pushes. Where it has gained
+// it is looked at what has pushed it. Where that may have given it energy it is left alone: what moves
+// otherwise than its holder, particles, several holders that move differently. Springs may give what they do
+// by their pushes times the motion.
 void take_out_gain(RigidScene& scene, const FigureRange& figure, const MotionRate& rate);
 
 // The same of a figure that hangs on ropes which bear it (rigid/rope_loads.h), where these are held by what

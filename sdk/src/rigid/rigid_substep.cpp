@@ -434,10 +434,11 @@ bool RigidSubstep::is_strained_rope(std::uint32_t object) const {
     });
 }
 
-// Of those that are held, or hang on ropes: by more than an eighth of a degree.
+// Of those that are held, or hang on ropes, or hold heavy bodies by light ones: by more than an eighth of a
+// degree.
 void RigidSubstep::mark_exceeded_limits() {
     for (const FigureRange& figure : scene_.figure_ranges) {
-        if (figure.is_held || figure.is_loaded) {
+        if (figure.is_held || figure.has_held_tree || figure.is_loaded) {
             for_each_joint(figure, [&](const Joint& joint, const Body& a, const Body& b) {
                 const std::int64_t turned = joint.in_held_tree ? turned_away(joint, a, b, true) : 0;
                 if (turned > far_turned || exceeded_limits(joint, a, b, true) > far_turned) {
@@ -628,7 +629,7 @@ void RigidSubstep::finish() {
         }
     });
     in_figures([this](const FigureRange& figure) {
-        if (figure.is_held && may_gain(figure)) {
+        if ((figure.is_held || (figure.has_held_tree && !figure.is_loaded)) && may_gain(figure)) {
             take_out_gain(scene_, figure, rate_);
         }
     });
