@@ -75,8 +75,9 @@ LKS_API const lks_error* lks_world_last_error(const lks_world* world);
  *   near      colliders and bodies; of objects and bodies at most 64 + 8 · (objects + bodies) pairs
  *   contacts  64 + 16 · bodies of up to four points, found among 64 + 32 · bodies near pairs; bodies count as
  *             many as there ever were at once, and what is beyond is left out (lost_contacts)
- *   rounds    a fixed number, and up to 16 more for figures that go on into what stops them, or that are held
- *             at a bone: there each may solve their joints up to 24 times, as a rule once or twice
+ *   rounds    a fixed number, and up to 16 more for figures that go on into what stops them, that are held
+ *             at a bone, or whose light bodies hold heavy ones: there each may solve their joints up to 24
+ *             times, as a rule once or twice
  * Bodies that sleep cost next to nothing, but all may wake at once: a bound counts them as awake. A rope that
  * is solved at once counts as a few sweeps, and where it is torn as up to eight times as many.
  *

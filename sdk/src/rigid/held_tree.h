@@ -1,5 +1,5 @@
-// Trees of joints that are held by something that does not move: points, hinges' and fixed joints' axes and
-// limits solved all at once.
+// Trees of joints that are held by something that does not move, or whose light bodies hold heavy ones
+// (rigid/heavy_sides.h): points, hinges' and fixed joints' axes and limits solved all at once.
 //
 // A row of a limit knows the masses of its two bones. Where all of a figure hangs on a hand that is led, the
 // limits of the wrist would have to push a forearm of a kilogram with what turns eighty, and rows that go in
