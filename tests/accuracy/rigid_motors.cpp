@@ -46,6 +46,24 @@ TEST_CASE("an arm that a motor lifts is within 2e-5 m on a ball joint and 8e-5 m
     }
 }
 
+TEST_CASE("an arm that a motor lifts to beyond a cone or an ellipse is within 3e-6 m") {
+    for (const int substeps : {8, 20}) {
+        for (const double limit_z : {40, 15}) {
+            RigidScene scene(with_substeps(substeps));
+            lks_joint_def def = with_friction(LKS_JOINT_BALL, 0);
+            def.swing_limit = fixed(40);
+            def.swing_limit_z = fixed(limit_z);
+            def.twist_min = fixed(-20);
+            def.twist_max = fixed(20);
+            add_arm(scene, def, 30);
+            scene.drive(0, motor(400, 0.1, about(0.5, 1, 0.6, 110)));
+            check_run((limit_z == 40 ? "motor beyond a cone" : "motor beyond an ellipse") +
+                          substeps_name(substeps),
+                      scene, {3e-6, 6e-6, 20}, {3e-6, 6e-6, 20});
+        }
+    }
+}
+
 TEST_CASE("an arm whose joint has friction is within 8e-6 m after ten seconds") {
     for (const int substeps : {8, 20}) {
         for (const std::uint32_t kind : {LKS_JOINT_HINGE, LKS_JOINT_BALL}) {

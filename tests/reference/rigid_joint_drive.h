@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reference/rigid_body.h"
+#include "reference/rigid_limits.h"
 
 namespace reference {
 
@@ -21,14 +22,14 @@ public:
         : hinge_(joint.kind == LKS_JOINT_HINGE),
           axis_only_(joint.kind == LKS_JOINT_HINGE && joint.angular_compliance > 0),
           frame_a_(quaternion_of<Scalar>(joint.frame_a)), frame_b_(quaternion_of<Scalar>(joint.frame_b)),
-          rate_(rate), friction_(static_cast<Scalar>(joint.friction)),
+          limits_(joint, rate), rate_(rate), friction_(static_cast<Scalar>(joint.friction)),
           drag_softness_(joint.angular_damping > 0 ? rate / static_cast<Scalar>(joint.angular_damping) : 0) {
         set_motor(joint.motor);
     }
 
     void set_motor(const RigidMotor& motor) {
         motor_ = motor.max_torque > 0;
-        target_ = quaternion_of<Scalar>(motor.target);
+        target_ = limits_.nearest_within(quaternion_of<Scalar>(motor.target));
         motor_share_ = 1 / std::max(static_cast<Scalar>(motor.response) * rate_, Scalar(8));
         most_ = (motor_ ? static_cast<Scalar>(motor.max_torque) : friction_) / (rate_ * rate_);
     }
@@ -37,7 +38,12 @@ public:
     bool acts() const { return most_ > 0; }
 
     // Before the prediction: what the motor is to turn in the substep.
-    void begin(const Body& a, const Body& b) { aim_ = motor_ ? missing_turn(a, b) * motor_share_ : Vec{}; }
+    void begin(const Body& a, const Body& b) {
+        aim_ = motor_ ? missing_turn(a, b) * motor_share_ : Vec{};
+        if (motor_ && !hinge_) {
+            aim_ = limits_.along(a, b, aim_);
+        }
+    }
 
     // Drags begin each substep anew, and motors with less than they pushed: swings would feed on it.
     void prepare(const Body& a) {
@@ -124,6 +130,7 @@ private:
     bool hinge_;
     bool axis_only_; // a soft hinge
     Quat frame_a_, frame_b_;
+    JointLimits<Scalar> limits_; // for what they let a motor aim at
     Scalar rate_;
     Scalar friction_;
     bool motor_ = false;

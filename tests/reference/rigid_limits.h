@@ -47,6 +47,37 @@ public:
         }
     }
 
+    // What a motor aims at instead of a target: what is next to it within them (sdk/src/rigid/motor_aim.h).
+    Quat nearest_within(const Quat& target) const {
+        const Scalar length = std::hypot(target.y, target.w);
+        if (softness_.is_soft() || length == 0) {
+            return target;
+        }
+        const Quat twist{0, target.y / length, 0, target.w / length};
+        return (swings_ ? nearest_swing(target * twist.conjugate()) : target * twist.conjugate()) *
+               (twists_ ? nearest_twist(twist) : twist);
+    }
+
+    // What a motor is to turn, no further beyond them.
+    Vec along(const Body& a, const Body& b, Vec aim) const {
+        const auto no_further = [&aim](const Vec& axis, Scalar room) {
+            aim = aim - axis * std::max(axis.dot(aim) - std::max(room, Scalar(0)), Scalar(0));
+        };
+        if (softness_.is_soft()) {
+            return aim;
+        }
+        if (swings_) {
+            const Swing swing = measure_swing(a, b);
+            no_further(swing.axis, swing.limit - swing.angle);
+        }
+        if (twists_) {
+            const Twist twist = measure_twist(a, b);
+            no_further(twist.axis, (twist_max_ - twist.angle) * twist.share);
+            no_further(twist.axis * Scalar(-1), (twist.angle - twist_min_) * twist.share);
+        }
+        return aim;
+    }
+
     // Soft ones begin each substep anew.
     void prepare() {
         if (softness_.is_soft()) {
@@ -231,6 +262,37 @@ private:
             t = {cosine / length, sine / length};
         }
         return t;
+    }
+
+    // Of a swing about x and z.
+    Quat nearest_swing(const Quat& swing) const {
+        const Scalar sine = std::hypot(swing.x, swing.z);
+        const Scalar angle = 2 * std::atan2(sine, swing.w);
+        const Scalar x = sine > 0 ? -swing.z / sine * angle : 0;
+        const Scalar z = sine > 0 ? swing.x / sine * angle : 0;
+        if (angle <= std::min(limit_x_, limit_z_) || std::hypot(x / limit_x_, z / limit_z_) <= 1) {
+            return swing;
+        }
+        const OnEllipse t = limit_x_ == limit_z_ ? OnEllipse{std::abs(x) / angle, std::abs(z) / angle}
+                                                 : nearest(std::abs(x), std::abs(z));
+        const Scalar end_x = std::copysign(t.cosine * limit_x_, x);
+        const Scalar end_z = std::copysign(t.sine * limit_z_, z);
+        const Scalar end = std::hypot(end_x, end_z);
+        const Scalar share = end > 0 ? std::sin(end / 2) / end : 0;
+        return {end_z * share, 0, -end_x * share, std::cos(end / 2)};
+    }
+    // Of a twist about y.
+    Quat nearest_twist(const Quat& twist) const {
+        const auto up = [](Scalar from, Scalar to) {
+            const Scalar way = std::remainder(to - from, 2 * Scalar(half_circle));
+            return way < 0 ? way + 2 * Scalar(half_circle) : way;
+        };
+        const Scalar angle = 2 * std::atan2(twist.y, twist.w);
+        if (up(twist_min_, angle) <= twist_max_ - twist_min_) {
+            return twist;
+        }
+        const Scalar end = up(twist_max_, angle) <= up(angle, twist_min_) ? twist_max_ : twist_min_;
+        return {0, std::sin(end / 2), 0, std::cos(end / 2)};
     }
 
     // As sdk/src/rigid/swing_ellipse.h has it.

@@ -78,7 +78,12 @@ typedef struct lks_joint_def {
 } lks_joint_def;
 
 /* Turns b's frame against a's towards a target, as fast as its torque allows and no faster than to leave 1/e
- * of the way after `response`. It holds against any load that its torque can bear. */
+ * of the way after `response`. It holds against any load that its torque can bear.
+ *
+ * It does not push against rigid limits. Where they don't let it to its target it goes to what is next to
+ * that within them: a swing ends at the edge of its cone or ellipse, a twist at the nearer end of its range;
+ * when limits change it goes on. Where the shortest way leads out of them it goes along them, and may get no
+ * further. Into soft limits (limit_compliance) it pushes with its torque. */
 typedef struct lks_motor {
     lks_fixed max_torque; /* N·m, 0 .. 1000000; 0: off */
     lks_fixed response;   /* seconds, 0 .. 100; at least eight substeps */

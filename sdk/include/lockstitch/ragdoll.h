@@ -88,10 +88,11 @@ LKS_API lks_result lks_ragdoll_move_to(lks_world* world, const lks_body_id* bodi
 LKS_API lks_result lks_ragdoll_set_kind(lks_world* world, const lks_body_id* bodies, uint32_t count,
                                         uint32_t kind);
 /* Powered: the motors of all joints turn the bones against each other as the pose has them (where it is in
- * the world does not matter), with `strength` (0 .. 100) times their bones' motor_torque, which goes with the
- * fourth power of the scale, 1,000,000 N·m at most; 0: limp. `response` is that of lks_motor, 0 .. 100 s.
- * `joints` and `pose` are those of lks_world_add_ragdoll; joints of generation 0, such as a game sets it to
- * where one broke, are left out. Fixed joints have no motors. */
+ * the world does not matter), or as near to it as rigid limits let them (lks_motor), with `strength` (0 ..
+ * 100) times their bones' motor_torque, which goes with the fourth power of the scale, 1,000,000 N·m at most;
+ * 0: limp. `response` is that of lks_motor, 0 .. 100 s. `joints` and `pose` are those of
+ * lks_world_add_ragdoll; joints of generation 0, such as a game sets it to where one broke, are left out.
+ * Fixed joints have no motors. */
 LKS_API lks_result lks_ragdoll_drive(lks_world* world, const lks_ragdoll_def* def, const lks_joint_id* joints,
                                      const lks_transform* pose, lks_fixed strength, lks_fixed response);
 

@@ -135,7 +135,8 @@ struct Joint : JointState {
 
     // Of the tick: its points are solved with those of its tree (rigid/articulation.h).
     bool in_tree;
-    bool in_held_tree; // and what it turns is, where a tree is held (rigid/held_tree.h)
+    bool in_held_tree;         // and what it turns is, where a tree is held (rigid/held_tree.h)
+    fixed::Rotation motor_aim; // the motor's target, or what is next to it within limits (rigid/motor_aim.h)
 
     // Of the substep.
     std::int64_t tension;        // how much it pushed in the one before, or since: World

@@ -2,6 +2,7 @@
 
 #include "fixed/arc_tangent.h"
 #include "rigid/joint_frames.h"
+#include "rigid/joint_limits.h"
 #include "rigid/substep_motion.h"
 
 namespace lks {
@@ -69,14 +70,14 @@ std::int64_t twist_of(const JointConstants& c, const fixed::Rotation& q) {
     return 2 * (cosine < 0 ? fixed::angle_of(-sine, -cosine) : fixed::angle_of(sine, cosine));
 }
 
-// From where it is to the motor's target without leaving its limits, which may be the long way round. Nought
-// where there are none.
+// From where it is to what the motor aims at without leaving its limits, which may be the long way round.
+// Nought where there are none.
 std::int64_t way_within_limits(const Joint& joint, const fixed::Rotation& now) {
     const bool limited = joint.description.kind == LKS_JOINT_HINGE && joint.constants.twist_limited;
-    return limited ? twist_of(joint.constants, joint.motor_target) - twist_of(joint.constants, now) : 0;
+    return limited ? twist_of(joint.constants, joint.motor_aim) - twist_of(joint.constants, now) : 0;
 }
 
-// What is missing to the motor's target, about any axis or about the hinge's: an angle in World, in the
+// What is missing to what the motor aims at, about any axis or about the hinge's: an angle in World, in the
 // world.
 Vec3 missing_turn(const Joint& joint, const Body& a, const Body& b) {
     const fixed::Rotation now = relative_rotation(joint, a, b);
@@ -84,7 +85,7 @@ Vec3 missing_turn(const Joint& joint, const Body& a, const Body& b) {
         way < -fixed::half_circle || way > fixed::half_circle) {
         return fixed::scale(from_frame_a(joint, a, {0, direction_one, 0}), way);
     }
-    fixed::Rotation q = fixed::multiply(joint.motor_target, fixed::conjugate(now));
+    fixed::Rotation q = fixed::multiply(joint.motor_aim, fixed::conjugate(now));
     if (joint.description.kind == LKS_JOINT_HINGE) {
         q.x = 0;
         q.z = 0;
@@ -110,6 +111,9 @@ void aim_motor(Joint& joint, const Body& a, const Body& b) {
                 c * (std::int64_t{1} << (turn_fraction_bits - world_fraction_bits - 1)));
         };
         joint.aim = {part(missing.x), part(missing.y), part(missing.z)};
+        if (joint.description.kind == LKS_JOINT_BALL) {
+            joint.aim = along_limits(joint, a, b, joint.aim);
+        }
     }
 }
 

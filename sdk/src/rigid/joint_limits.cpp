@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collide/saturation.h"
 #include "fixed/arc_tangent.h"
 #include "rigid/joint_frames.h"
 #include "rigid/swing_ellipse.h"
@@ -140,16 +141,21 @@ bool measure_twist(const Joint& joint, const Body& a, const Body& b, const SinCo
     return !has_no_twist(half) && find_twist_axis(joint, a, b, twist);
 }
 
-// Where the twist is certainly within its limits nobody need know it.
-bool find_twist(const Joint& joint, const Body& a, const Body& b, Twist& twist) {
-    const SinCos half = half_twist(joint, a, b);
-    const JointConstants& c = joint.constants;
-    // sin(twist/2 − limit/2), times what is left of the swing.
+// How far it is beyond the nearer limit: sin(twist/2 − limit/2), times what is left of the swing, 60 fraction
+// bits.
+std::int64_t half_beyond(const JointConstants& c, const SinCos& half) {
     const std::int64_t above =
         std::int64_t{half.sine} * c.half_max.cosine - std::int64_t{half.cosine} * c.half_max.sine;
     const std::int64_t below =
         std::int64_t{half.cosine} * c.half_min.sine - std::int64_t{half.sine} * c.half_min.cosine;
-    return (above > 0 || below > 0 || joint.twist_push != 0) && measure_twist(joint, a, b, half, twist);
+    return std::max(above, below);
+}
+
+// Where the twist is certainly within its limits nobody need know it.
+bool find_twist(const Joint& joint, const Body& a, const Body& b, Twist& twist) {
+    const SinCos half = half_twist(joint, a, b);
+    return (half_beyond(joint.constants, half) > 0 || joint.twist_push != 0) &&
+           measure_twist(joint, a, b, half, twist);
 }
 
 // In a substep what was exceeded when it began stays so.
@@ -194,6 +200,14 @@ void hold_twist(Joint& joint, Body& a, Body& b) {
     row.apply(joint.twist_push - before);
 }
 
+// Of what turns b against a, half turns, Turn, about an axis no more than `room`: World, radians.
+Vec3 no_further(const Vec3& turn, const Direction& axis, std::int64_t room) {
+    const std::int64_t most =
+        std::max<std::int64_t>(room, 0) * (std::int64_t{1} << (turn_fraction_bits - world_fraction_bits - 1));
+    const std::int64_t along = fixed::dot(axis, turn);
+    return along > most ? turn - fixed::scale(axis, along - most) : turn;
+}
+
 void push_limits(const Joint& joint, Body& a, Body& b, std::int64_t swing_push, std::int64_t twist_push) {
     Swing swing{};
     if (swing_push != 0 && find_pushed_swing(joint, a, b, swing)) {
@@ -230,6 +244,28 @@ void begin_limits(Joint& joint, const Body& a, const Body& b) {
                 kept_gap(joint, joint.twist_push < 0 ? c.twist_max - twist.angle : twist.angle - c.twist_min);
         }
     }
+}
+
+Vec3 along_limits(const Joint& joint, const Body& a, const Body& b, const Vec3& aim) {
+    const JointConstants& c = joint.constants;
+    if (are_soft(joint) || (!c.swing_limited && !c.twist_limited)) {
+        return aim;
+    }
+    Vec3 left = aim;
+    const std::int64_t most = sum_of_magnitudes(aim);
+    // A cosine changes by no more than its angle.
+    const auto [u, v] = axes_of(joint, a, b);
+    if (c.swing_limited && fixed::dot(u, v) - (most >> (turn_fraction_bits - 31)) <= c.swing_cosine) {
+        const Swing swing = measure_swing(joint, a, u, v);
+        left = no_further(left, swing.axis, swing.limit - swing.angle);
+    }
+    const SinCos half = half_twist(joint, a, b);
+    Twist twist{};
+    if (c.twist_limited && half_beyond(c, half) > -most && measure_twist(joint, a, b, half, twist)) {
+        left = no_further(left, twist.axis, twist.turn_for(c.twist_max - twist.angle));
+        left = no_further(left, -twist.axis, twist.turn_for(twist.angle - c.twist_min));
+    }
+    return left;
 }
 
 void prepare_limits(Joint& joint) {

@@ -13,6 +13,9 @@ namespace lks {
 
 // Before the prediction: how far they let turn.
 void begin_limits(Joint& joint, const Body& a, const Body& b);
+// What a motor is to turn in the substep, half turns, Turn: on its way to where limits let it, it may meet
+// them in between. Then it goes along them, and does not push.
+fixed::Vec3 along_limits(const Joint& joint, const Body& a, const Body& b, const fixed::Vec3& aim);
 // After it: what is carried on, and how that is pushed.
 void prepare_limits(Joint& joint);
 void carry_limits_on(const Joint& joint, Body& a, Body& b);

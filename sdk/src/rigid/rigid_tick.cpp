@@ -10,6 +10,7 @@
 #include "rigid/coupling.h"
 #include "rigid/figure_overlaps.h"
 #include "rigid/figures.h"
+#include "rigid/motor_aim.h"
 #include "rigid/particle_touch.h"
 #include "rigid/rigid_substep.h"
 #include "rigid/rope_loads.h"
@@ -52,6 +53,7 @@ public:
                 body.world_inverse = rotated(body.inverse_inertia, body.rotation);
             }
         }
+        for_each_joint([](Joint& joint) { find_motor_aim(joint); });
         run_substeps();
         finish();
     }

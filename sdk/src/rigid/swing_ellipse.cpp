@@ -52,7 +52,29 @@ Direction nearest(std::int64_t half_x, std::int64_t half_z, std::int64_t p_x, st
     return t;
 }
 
-std::int32_t with_sign_of(std::int32_t size, std::int32_t sign) {
+// In the first quadrant, with how far p and it are along the normal there.
+struct EllipsePoint {
+    std::int64_t x, z;
+    Direction normal; // in x and y
+    std::int64_t out;
+    std::int64_t edge;
+};
+
+EllipsePoint nearest_point(const JointConstants& c, std::int64_t p_x, std::int64_t p_z) {
+    const Direction t = nearest(c.swing_limit, c.swing_limit_z, p_x, p_z);
+    fixed::NormalisedVector normal{};
+    fixed::normalise(
+        Vec3{fixed::scale_component(t.x, c.swing_limit_z), fixed::scale_component(t.y, c.swing_limit), 0},
+        normal);
+    const Direction n = normal.direction;
+    const std::int64_t x = fixed::scale_component(t.x, c.swing_limit);
+    const std::int64_t z = fixed::scale_component(t.y, c.swing_limit_z);
+    return {x, z, n, fixed::scale_component(n.x, p_x) + fixed::scale_component(n.y, p_z),
+            fixed::scale_component(n.x, x) + fixed::scale_component(n.y, z)};
+}
+
+template <typename Size, typename Sign>
+Size with_sign_of(Size size, Sign sign) {
     return sign < 0 ? -size : size;
 }
 
@@ -91,15 +113,8 @@ Swing square_to_edge(const JointConstants& c, const Body& a, const Direction& v,
     };
     const std::int64_t p_x = size(phi.direction.x);
     const std::int64_t p_z = size(phi.direction.y);
-    const Direction t = nearest(c.swing_limit, c.swing_limit_z, p_x, p_z);
-    fixed::NormalisedVector normal{};
-    fixed::normalise(
-        Vec3{fixed::scale_component(t.x, c.swing_limit_z), fixed::scale_component(t.y, c.swing_limit), 0},
-        normal);
-    const Direction n = normal.direction; // in the first quadrant
-    const std::int64_t out = fixed::scale_component(n.x, p_x) + fixed::scale_component(n.y, p_z);
-    const std::int64_t edge = fixed::scale_component(n.x, fixed::scale_component(t.x, c.swing_limit)) +
-                              fixed::scale_component(n.y, fixed::scale_component(t.y, c.swing_limit_z));
+    const EllipsePoint next = nearest_point(c, p_x, p_z);
+    const Direction n = next.normal;
     const std::int64_t n_x = with_sign_of(n.x, phi.direction.x);
     const std::int64_t n_z = with_sign_of(n.y, phi.direction.y);
     const std::int64_t radial = (n_x * phi.direction.x + n_z * phi.direction.y) >> (60 - world_fraction_bits);
@@ -112,12 +127,24 @@ Swing square_to_edge(const JointConstants& c, const Body& a, const Direction& v,
     };
     fixed::NormalisedVector way{};
     if (!fixed::normalise(Vec3{part(k.x, m.x), part(k.y, m.y), part(k.z, m.z)}, way)) {
-        return {k, out, edge};
+        return {k, next.out, next.edge};
     }
     const auto as_turn = [&way](std::int64_t value) {
         return fixed::multiply_divide(value, world_one, way.length);
     };
-    return {way.direction, as_turn(out), as_turn(edge)};
+    return {way.direction, as_turn(next.out), as_turn(next.edge)};
+}
+
+SwingEdge nearest_edge(const JointConstants& c, std::int64_t x, std::int64_t z) {
+    if (c.swing_round) {
+        const std::int64_t angle = length_of(x, z);
+        const auto part = [&](std::int64_t p) {
+            return angle == 0 ? 0 : fixed::multiply_divide(p, c.swing_limit, angle);
+        };
+        return {part(x), part(z), angle - c.swing_limit};
+    }
+    const EllipsePoint next = nearest_point(c, x < 0 ? -x : x, z < 0 ? -z : z);
+    return {with_sign_of(next.x, x), with_sign_of(next.z, z), next.out - next.edge};
 }
 
 } // namespace lks

@@ -23,4 +23,13 @@ struct Swing {
 Swing square_to_edge(const JointConstants& c, const Body& a, const fixed::Direction& v,
                      const fixed::Direction& k, std::int64_t angle, std::int64_t sine);
 
+// The point of a cone's or an ellipse's edge that is next to a swing, and how far the swing is beyond it:
+// towards local x and z, World, radians.
+struct SwingEdge {
+    std::int64_t x, z;
+    std::int64_t beyond;
+};
+
+SwingEdge nearest_edge(const JointConstants& c, std::int64_t x, std::int64_t z);
+
 } // namespace lks
