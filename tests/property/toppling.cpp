@@ -102,7 +102,7 @@ TEST_CASE("a row of dominoes that are asleep falls as fast as one that is awake"
 
 TEST_CASE("what begins to topple falls as if it might not sleep") {
     for (const double half_height : {0.2, 1., 2.}) {
-        for (const double degrees_beyond : {1., 2., 4.}) {
+        for (const double degrees_beyond : {0.25, 0.5, 1., 2., 4.}) {
             INFO("a slab of " << 2 * half_height << " m, " << degrees_beyond
                               << " degrees beyond its balance");
             const int ticks = fall_of_slab(half_height, degrees_beyond, false);
@@ -110,7 +110,7 @@ TEST_CASE("what begins to topple falls as if it might not sleep") {
             CHECK(fall_of_slab(half_height, degrees_beyond, true) == ticks);
         }
     }
-    for (const double beside : {0.005, 0.01, 0.02}) {
+    for (const double beside : {0.001, 0.002, 0.005, 0.01, 0.02}) {
         INFO("a ball " << beside << " m beside the top");
         const int ticks = fall_of_ball(beside, false);
         CHECK(ticks > 0);

@@ -307,7 +307,7 @@ TEST_CASE("an image whose contact names a collider that the image has not got is
     }
 }
 
-TEST_CASE("an image whose sleeper moves is refused") {
+TEST_CASE("an image whose sleeper moves, or whose sleep is none, is refused") {
     World world(world_def(60, 2));
     add_ground(world);
     const lks_body_id box = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(0, 0.2, 0));
@@ -332,6 +332,25 @@ TEST_CASE("an image whose sleeper moves is refused") {
                                [&] { return lks_world_load(world, bad.data(), bad.size()); });
         }
     }
+    // What it rests for, whether it sleeps, gathers speed, has turned, and for how long it has accelerated.
+    const std::size_t sleep = word - 8 + offsetof(lks::BodyState, rest);
+    const auto with = [&](std::uint64_t asleep, std::uint64_t gathers, std::uint64_t turns,
+                          std::uint64_t steady) {
+        Image image = good;
+        const std::uint64_t rest = get_u64(good, sleep) & 0xffffffff;
+        put_u64(image, sleep, rest | asleep << 32 | gathers << 40 | turns << 48 | steady << 56);
+        put_right_checksum(image);
+        return image;
+    };
+    REQUIRE(with(1, 0, 0, 0) == good);
+    for (const Image& bad : {with(2, 0, 0, 0), with(1, 1, 0, 0), with(1, 0, 1, 0), with(1, 0, 0, 1),
+                             with(0, 2, 0, 0), with(0, 0, 3, 0), with(0, 0, 255, 0)}) {
+        check_call_refused(world, LKS_ERROR_CORRUPT_IMAGE, "body 0",
+                           [&] { return lks_world_load(world, bad.data(), bad.size()); });
+    }
+    const Image restless = with(0, 1, 2, 255);
+    CHECK(lks_world_load(world, restless.data(), restless.size()) == LKS_OK);
+    CHECK(world.save() == restless);
     REQUIRE(lks_world_load(world, good.data(), good.size()) == LKS_OK);
 }
 

@@ -107,12 +107,13 @@ LKS_API uint32_t lks_body_get_kind(const lks_world* world, lks_body_id body);
 
 /* Sleep. What has been slower than 10 cm/s, or within a centimetre and two degrees of one place, for half a
  * second, with all that it touches and is jointed to, is taken out of the simulation: a sleeping pile costs
- * next to nothing. Where nothing touches it that takes two seconds, and where something overlaps by more than
- * 1.5 mm two seconds on the average. It wakes, with all these, when something awake or kinematic comes to
- * touch or push it, when particles strike it or a cloth or rope leaves it altogether, when the game does
- * something to it, and when what it touches or is jointed to is removed, put elsewhere or gets another kind.
- * Adding, placing or removing a collider wakes all whose filters meet its own, adding or placing a kinematic
- * body those that it touches, gravity everybody. What comes to lie beside it, or softly on it, does not.
+ * next to nothing; what accelerates steadily by 5 cm/s² and more, as on a slope, is not. Where nothing
+ * touches it that takes two seconds, and where something overlaps by more than 1.5 mm two seconds on the
+ * average. It wakes, with all these, when something awake or kinematic comes to touch or push it, when
+ * particles strike it or a cloth or rope leaves it altogether, when the game does something to it, and when
+ * what it touches or is jointed to is removed, put elsewhere or gets another kind. Adding, placing or
+ * removing a collider wakes all whose filters meet its own, adding or placing a kinematic body those that it
+ * touches, gravity everybody. What comes to lie beside it, or softly on it, does not.
  * 1 while the body is awake; 0 for a kinematic body and a stale id. */
 LKS_API uint32_t lks_body_is_awake(const lks_world* world, lks_body_id body);
 /* With its island, from the next tick on. */

@@ -41,12 +41,16 @@ struct BodyDescription {
     std::uint32_t never_sleeps; // 0 or 1
 };
 
+// Body::turns: so often what trembles or rocks has turned round.
+inline constexpr std::uint8_t enough_turns = 2;
+
 // Where and how fast it is. Images and hashes have it in this order.
 struct BodyState {
     fixed::Vec3 position; // World, of the centre of mass
     // Kinematic: at the end of the next tick.
     fixed::Vec3 target_position;
-    // Sleep (rigid/sleep.h): where it has stayed, for how many ticks, and whether it is asleep.
+    // Sleep (rigid/sleep.h): where it has stayed, for how many ticks, whether it is asleep, and how its speed
+    // changes.
     fixed::Vec3 rest_position;
     Quaternion orientation;
     Quaternion target_orientation;
@@ -54,7 +58,10 @@ struct BodyState {
     fixed::Vec3 angular_velocity; // World, rad/s, in world axes
     Quaternion rest_orientation;
     std::uint32_t rest;   // for how long, in fifths of a tick
-    std::uint32_t asleep; // 0 or 1
+    std::uint8_t asleep;  // 0 or 1
+    std::uint8_t gathers; // 0 or 1: speed, when that changed last
+    std::uint8_t turns;   // how often it has lost it after that, up to enough_turns
+    std::uint8_t steady;  // for how many ticks it has accelerated as what rolls on a slope does
 };
 
 struct Speeds {
@@ -92,6 +99,7 @@ struct Body : BodyState {
     bool figure_touched; // the least body of a figure: any of its bodies is
     fixed::Vec3 tick_position;
     Quaternion tick_orientation;
+    Speeds tick_speeds;
     fixed::Vec3 start_position;
     fixed::Vec3 predicted_position;
     Quaternion start_orientation;

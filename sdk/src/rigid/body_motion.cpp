@@ -110,13 +110,13 @@ Vec3 to_half_turn(const Vec3& spin, const MotionRate& rate) {
     return {part(spin.x), part(spin.y), part(spin.z)};
 }
 
-std::int64_t spin_speed(const Body& body, std::int64_t radius) {
-    const std::int64_t spin = sum_of_magnitudes(body.angular_velocity);
-    return fixed::saturate_to_int64(fixed::multiply_signed(spin, radius) >> world_fraction_bits);
+std::int64_t spin_speed(const Vec3& spin, std::int64_t radius) {
+    return fixed::saturate_to_int64(fixed::multiply_signed(sum_of_magnitudes(spin), radius) >>
+                                    world_fraction_bits);
 }
 
-std::int64_t greatest_speed(const Body& body, std::int64_t radius) {
-    return fixed::saturating_add(sum_of_magnitudes(body.velocity), spin_speed(body, radius));
+std::int64_t greatest_speed(const Speeds& speeds, std::int64_t radius) {
+    return fixed::saturating_add(sum_of_magnitudes(speeds.velocity), spin_speed(speeds.spin, radius));
 }
 
 BodyTick make_body_tick(const BodyDescription& description, const StepRate& rate, const Vec3& gravity) {

@@ -52,8 +52,11 @@ void limit_speeds(Body& body, const MotionRate& rate, std::uint64_t& speed_clamp
 
 // How fast any point within `radius` of the centre of mass may be, World m/s; generous: by the spin alone,
 // and altogether.
-std::int64_t spin_speed(const Body& body, std::int64_t radius);
-std::int64_t greatest_speed(const Body& body, std::int64_t radius);
+std::int64_t spin_speed(const fixed::Vec3& spin, std::int64_t radius);
+std::int64_t greatest_speed(const Speeds& speeds, std::int64_t radius);
+inline std::int64_t greatest_speed(const Body& body, std::int64_t radius) {
+    return greatest_speed(body.speeds(), radius);
+}
 
 // World rad/s to the half turn of a substep, Turn.
 fixed::Vec3 to_half_turn(const fixed::Vec3& spin, const MotionRate& rate);

@@ -97,6 +97,7 @@ private:
             body.previous_rotation = narrow(body.orientation);
             body.tick_position = body.position;
             body.tick_orientation = body.orientation;
+            body.tick_speeds = body.speeds();
             body.slept = body.asleep != 0;
             if (body.slept) {
                 continue;

@@ -23,6 +23,10 @@ constexpr std::uint32_t most_factor = 5;
 constexpr std::int64_t squeezed_depth = (std::int64_t{3} << world_fraction_bits) / 2000;
 // Rest counts in fifths of a tick: of what sticks in something, and is still coming out, each tick is one.
 constexpr std::uint32_t rest_of_tick = 5;
+// Speeds of a body's fastest point; what it gains in a second, as a ball on a slope of a fifth of a degree.
+constexpr std::int64_t slow = (std::int64_t{1} << world_fraction_bits) / 10;
+constexpr std::int64_t fast = (std::int64_t{1} << world_fraction_bits) / 2;
+constexpr std::int64_t least_gain = (std::int64_t{1} << world_fraction_bits) / 20;
 
 // What joints and pushing contacts hold together.
 BodyRoots find_islands(RigidScene& scene) {
@@ -117,12 +121,42 @@ bool whirls(const Body& body, const StepRate& rate) {
            static_cast<std::int64_t>(rate.ticks_per_second);
 }
 
+// How its speed changes. On a slope it becomes less and then more, however a body was thrown: that is steady.
+// What trembles or rocks is fastest in between.
+void follow_course(Body& body, std::int64_t radius, const StepRate& rate) {
+    const Speeds& before = body.tick_speeds;
+    const Speeds gained{body.velocity - before.velocity, body.angular_velocity - before.spin};
+    const std::int64_t speed = greatest_speed(body, radius);
+    if (speed > fast) {
+        body.turns = 0;
+    }
+    if (greatest_speed(gained, radius) < least_gain / rate.ticks_per_second) {
+        body.steady = 0;
+        return;
+    }
+    const bool gathers = speed > greatest_speed(before, radius);
+    const bool turns = body.gathers != 0 && !gathers;
+    body.gathers = gathers ? 1 : 0;
+    if (turns) {
+        body.steady = 0;
+        if (body.turns < enough_turns) {
+            ++body.turns;
+        }
+    } else if (body.steady < UINT8_MAX) {
+        ++body.steady;
+    }
+}
+
+// Whether it has rolled, slid or toppled on for an eighth of a second, rather than trembled or rocked.
+bool accelerates(const Body& body, const StepRate& rate) {
+    return body.turns < enough_turns &&
+           body.steady >= std::clamp<std::uint32_t>(rate.ticks_per_second / 8, 2, UINT8_MAX);
+}
+
 // Counts for how long a body has trembled at one place, or crept. A twitch of a limb takes back some of it, a
 // real motion all. Slow is a pendulum, too, where it turns: of what hangs or floats only the time counts that
 // it has stayed.
 void count_rest(Body& body, std::int64_t radius, bool hangs, std::uint32_t most, const StepRate& rate) {
-    constexpr std::int64_t slow = (std::int64_t{1} << world_fraction_bits) / 10;
-    constexpr std::int64_t fast = (std::int64_t{1} << world_fraction_bits) / 2;
     constexpr std::uint32_t twitch = 8 * rest_of_tick;
     const bool stayed = has_stayed(body) && !whirls(body, rate);
     if (!stayed) {
@@ -130,7 +164,9 @@ void count_rest(Body& body, std::int64_t radius, bool hangs, std::uint32_t most,
         body.rest_orientation = body.orientation;
     }
     const std::int64_t speed = greatest_speed(body, radius);
-    if (stayed || (!hangs && speed <= slow)) {
+    if (!hangs && accelerates(body, rate)) {
+        body.rest -= std::min(body.rest, rest_of_tick);
+    } else if (stayed || (!hangs && speed <= slow)) {
         body.rest = std::min(body.rest + (body.sticks ? 1 : rest_of_tick), most);
     } else if (hangs) {
         body.rest = 0;
@@ -188,6 +224,7 @@ void calm(Body& body) {
 void wake(Body& body) {
     body.asleep = 0;
     body.rest = 0;
+    body.turns = 0;
 }
 
 void wake_all(RigidScene& scene) {
@@ -265,9 +302,11 @@ void fall_asleep(lks_world& world) {
         Body& body = scene.bodies[i];
         if (body.is_awake()) {
             const bool alone = hangs(i);
+            follow_course(body, scene.descriptions[i].radius, world.rate);
             count_rest(body, scene.descriptions[i].radius, alone, most_factor * enough, world.rate);
-            if (body.touched && body.rest >= calming && scene.descriptions[i].never_sleeps == 0 &&
-                !whirls(body, world.rate) && returns(body, scene.descriptions[i].radius)) {
+            if (body.touched && !accelerates(body, world.rate) && body.rest >= calming &&
+                scene.descriptions[i].never_sleeps == 0 && !whirls(body, world.rate) &&
+                returns(body, scene.descriptions[i].radius)) {
                 calm(body);
             }
             ready = ready || body.rest >= enough;
@@ -295,6 +334,7 @@ void fall_asleep(lks_world& world) {
         Body& body = scene.bodies[i];
         if (body.is_dynamic() && body.asleep == 0 && has_rested(rests[islands.root(i)], enough)) {
             body.asleep = 1;
+            body.gathers = body.turns = body.steady = 0;
             body.velocity = {0, 0, 0};
             body.angular_velocity = {0, 0, 0};
             body.follow_orientation();

@@ -4,12 +4,14 @@
 // An island is what joints and pushing contacts hold together. It falls asleep when each of its bodies has
 // been slower than ten centimetres a second, or has stayed within a centimetre and two degrees of one place,
 // for half a second (but for a twitch below half a metre a second), and nothing kinematic that moves touches
-// it; all its speeds become zero. Where nothing pushes it, as what hangs or floats, it has to stay for two
-// seconds, however slow. Where something is squeezed, overlaps have time to part: its bodies have to have
-// rested for two seconds on the average, and what is squeezed may rattle within two centimetres. Of what
-// overlaps by more than five millimetres only each fifth tick counts. It wakes as a whole: by an awake body
-// or a moving collider that comes to touch one of its bodies, and by whatever the game does to one. A
-// sleeping body's contacts keep their pushes, so that a pile wakes as it fell asleep.
+// it; all its speeds become zero. What accelerates steadily, as on a slope, is at rest nowhere, however slow
+// it is; what has turned round twice below half a metre a second trembles or rocks, and may rest. Where
+// nothing pushes it, as what hangs or floats, it has to stay for two seconds, however slow. Where something
+// is squeezed, overlaps have time to part: its bodies have to have rested for two seconds on the average, and
+// what is squeezed may rattle within two centimetres. Of what overlaps by more than five millimetres only
+// each fifth tick counts. It wakes as a whole: by an awake body or a moving collider that comes to touch one
+// of its bodies, and by whatever the game does to one. A sleeping body's contacts keep their pushes, so that
+// a pile wakes as it fell asleep.
 #pragma once
 
 #include "solver/world.h"

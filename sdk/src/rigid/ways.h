@@ -48,7 +48,7 @@ inline std::int64_t turn_in(const Body& body, std::int64_t radius, std::int64_t 
     const auto limit = static_cast<std::uint64_t>(body_spin_limit(rate));
     const bool limited =
         std::max({fixed::magnitude(w.x), fixed::magnitude(w.y), fixed::magnitude(w.z)}) >= limit;
-    const std::int64_t turn = spin_speed(body, radius) / n;
+    const std::int64_t turn = spin_speed(body.angular_velocity, radius) / n;
     // What is kinematic turns by a quarter at most in a tick.
     return limited && !body.is_dynamic() ? std::max(turn, saturating_double(radius)) : turn;
 }

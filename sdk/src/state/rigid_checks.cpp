@@ -52,7 +52,7 @@ RigidChecks::RigidChecks(const lks_world& world) : world_(world) {
         // Spins may go beyond the limit by what the middle of a substep differs from its end.
         .within(2 * body_spin_limit(world.rate), 3)
         .within(turn_one + unit_room, 4)
-        .between(0, (std::int64_t{1} << 32) + greatest_u32); // any rest; asleep 0 or 1
+        .between(INT64_MIN, INT64_MAX); // any rest; the others: sleeps_soundly
     joint_ranges_
         .within(greatest_uneven_push, 3) // push
         .within(greatest_push, 6)        // turn, grip
@@ -100,20 +100,22 @@ bool RigidChecks::moves_within_reach(const unsigned char* at) const {
     return check_body_motion(world_, body, body.target_position, narrow(body.target_orientation)) == LKS_OK;
 }
 
-// Who sleeps does not move, and is no kinematic one.
-bool RigidChecks::sleeps_still(const unsigned char* at, std::uint32_t kind) {
-    std::uint32_t asleep = 0;
+// Who sleeps does not move, nor has any course, and is no kinematic one.
+bool RigidChecks::sleeps_soundly(const unsigned char* at, std::uint32_t kind) {
+    const unsigned char* sleep = at + offsetof(BodyState, asleep);
+    if (sleep[0] == 0) {
+        return at[offsetof(BodyState, gathers)] <= 1 && at[offsetof(BodyState, turns)] <= enough_turns;
+    }
     std::int64_t speeds[6];
     static_assert(offsetof(BodyState, angular_velocity) ==
                   offsetof(BodyState, velocity) + sizeof(speeds) / 2);
-    std::memcpy(&asleep, at + offsetof(BodyState, asleep), sizeof(asleep));
     std::memcpy(speeds, at + offsetof(BodyState, velocity), sizeof(speeds)); // nought in any order of bytes
     const std::int64_t any = speeds[0] | speeds[1] | speeds[2] | speeds[3] | speeds[4] | speeds[5];
-    return asleep == 0 || (any == 0 && kind != LKS_BODY_KINEMATIC);
+    return read_u32(sleep) == 1 && any == 0 && kind != LKS_BODY_KINEMATIC;
 }
 
 bool RigidChecks::body(const unsigned char* at, std::uint32_t kind) const {
-    return body_ranges_.hold(at) && sleeps_still(at, kind) &&
+    return body_ranges_.hold(at) && sleeps_soundly(at, kind) &&
            is_unit(at + offsetof(BodyState, orientation)) &&
            is_unit(at + offsetof(BodyState, target_orientation)) &&
            is_unit(at + offsetof(BodyState, rest_orientation)) &&

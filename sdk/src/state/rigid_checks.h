@@ -25,7 +25,7 @@ public:
     bool pushes(const unsigned char* at, std::uint32_t count) const;
 
 private:
-    static bool sleeps_still(const unsigned char* at, std::uint32_t kind);
+    static bool sleeps_soundly(const unsigned char* at, std::uint32_t kind);
     // As lks_body_move_to would have it.
     bool moves_within_reach(const unsigned char* at) const;
 

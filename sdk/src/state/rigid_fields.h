@@ -67,7 +67,13 @@ void body_motion_fields(Io& io, BodyState& body) {
     vector_fields(io, body.angular_velocity);
     quaternion_fields(io, body.rest_orientation);
     io.u32(body.rest);
-    io.u32(body.asleep);
+    std::uint32_t sleep = body.asleep | std::uint32_t{body.gathers} << 8 | std::uint32_t{body.turns} << 16 |
+                          std::uint32_t{body.steady} << 24;
+    io.u32(sleep);
+    body.asleep = static_cast<std::uint8_t>(sleep);
+    body.gathers = static_cast<std::uint8_t>(sleep >> 8);
+    body.turns = static_cast<std::uint8_t>(sleep >> 16);
+    body.steady = static_cast<std::uint8_t>(sleep >> 24);
 }
 
 template <typename Io>
