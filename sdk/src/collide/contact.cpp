@@ -146,8 +146,9 @@ std::int64_t moved(std::int64_t position, std::int64_t by) {
     return std::clamp(fixed::saturating_add(position, by), -coordinate_limit, coordinate_limit);
 }
 
-void apply(const ContactFrame& frame, const Way& way, const Contact& contact, const ParticleArrays& particles,
-           std::uint32_t i, ContactReaction* reaction) {
+// Returns the new depth.
+std::int64_t apply(const ContactFrame& frame, const Way& way, const Contact& contact,
+                   const ParticleArrays& particles, std::uint32_t i, ContactReaction* reaction) {
     const fixed::Vec3 push = fixed::scale(contact.normal, contact.depth) - friction(frame, way, contact);
     fixed::Vec3 correction = fixed::rotate(frame.end_rotation, push);
     const fixed::Vec3 recovery =
@@ -166,6 +167,7 @@ void apply(const ContactFrame& frame, const Way& way, const Contact& contact, co
         particles.start_y[i] = fixed::saturating_add(particles.start_y[i], recovery.y);
         particles.start_z[i] = fixed::saturating_add(particles.start_z[i], recovery.z);
     }
+    return contact.depth - contact.old_depth;
 }
 
 // A particle's way grows by half of itself where the collider rotates: its bounding box against the box of
@@ -203,41 +205,54 @@ std::uint64_t without_misses(const ContactFrame& frame, const ParticleArrays& pa
 
 constexpr std::uint32_t particles_at_once = 64;
 
-// Calls resolve(i) for those of the particles whose bit near(first, count) sets, and respond() leaves.
+// Calls resolve(i), which returns the new depth, for those of the particles whose bit near(first, count)
+// sets, and respond() leaves.
 template <typename Near, typename Resolve>
 void visit_near(std::uint32_t first, std::uint32_t count, const Near& near, WideResponse& respond,
-                const Resolve& resolve) {
+                const FarPushes* far, const Resolve& resolve) {
     const std::uint32_t last = first + count;
     for (std::uint32_t i = first; i < last; i += particles_at_once) {
         const std::uint32_t at_once = std::min(last - i, particles_at_once);
         std::uint64_t left = respond(i, at_once, near(i, at_once));
         for (; left != 0; left &= left - 1) {
-            resolve(i + static_cast<std::uint32_t>(std::countr_zero(left)));
+            const std::int64_t depth = resolve(i + static_cast<std::uint32_t>(std::countr_zero(left)));
+            if (far != nullptr && depth > far->beyond) {
+                far->words[i / particles_at_once] |= left & -left;
+            }
         }
     }
 }
 
 template <lks_shape_kind kind>
-void resolve_solid_contact(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t i,
-                           ContactReaction* reaction) {
-    const fixed::Vec3 position = position_of(particles, i);
-    const fixed::Vec3 start = start_of(particles, i);
-    if (reaction != nullptr && reaction->ignores(i)) {
-        return;
-    }
-    Way way{};
+bool meets_solid(const ContactFrame& frame, const fixed::Vec3& position, const fixed::Vec3& start, Way& way,
+                 Contact& contact) {
     if (!find_way(frame, position, start, way)) {
-        return;
+        return false;
     }
     // The distance changes by no more than the way is long.
     const std::int64_t length_bound = sum_of_magnitudes(way.end - way.start);
-    if (is_beyond<kind>(frame.shape, way.end, frame.margin, length_bound)) {
-        return;
+    return !is_beyond<kind>(frame.shape, way.end, frame.margin, length_bound) &&
+           find_contact<kind>(frame, way, contact);
+}
+
+bool meets_plane(const ContactFrame& frame, const fixed::Vec3& position, const fixed::Vec3& start, Way& way,
+                 Contact& contact) {
+    way.end = plane_local(frame.end_rotation, position, frame.end_centre);
+    way.start = plane_local(frame.start_rotation, start, frame.start_centre);
+    return find_plane_contact(frame, way, contact);
+}
+
+template <lks_shape_kind kind>
+std::int64_t resolve_solid_contact(const ContactFrame& frame, const ParticleArrays& particles,
+                                   std::uint32_t i, ContactReaction* reaction) {
+    if (reaction != nullptr && reaction->ignores(i)) {
+        return 0;
     }
+    Way way{};
     Contact contact{};
-    if (find_contact<kind>(frame, way, contact)) {
-        apply(frame, way, contact, particles, i, reaction);
-    }
+    return meets_solid<kind>(frame, position_of(particles, i), start_of(particles, i), way, contact)
+               ? apply(frame, way, contact, particles, i, reaction)
+               : 0;
 }
 
 std::int32_t upper_half(std::int64_t coordinate) {
@@ -247,16 +262,19 @@ std::int32_t upper_half(std::int64_t coordinate) {
 // Most particles leave with the kernel's question.
 template <lks_shape_kind kind>
 void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                   std::uint32_t count, const Kernels& kernels, ContactReaction* reaction) {
-    const auto resolve = [&](std::uint32_t i) { resolve_solid_contact<kind>(frame, particles, i, reaction); };
-    WideResponse respond(frame, particles, kernels.respond, reaction);
+                   std::uint32_t count, const Kernels& kernels, ContactReaction* reaction,
+                   const FarPushes* far) {
+    const auto resolve = [&](std::uint32_t i) {
+        return resolve_solid_contact<kind>(frame, particles, i, reaction);
+    };
+    WideResponse respond(frame, particles, kernels.respond, reaction, far);
     if (frame.rotating && (!frame.has_box || frame.greatest_growth == INT64_MAX)) {
         // Nothing can be said of all of them.
         const auto near = [&](std::uint32_t i, std::uint32_t n) {
             const std::uint64_t all = UINT64_MAX >> (particles_at_once - n);
             return frame.has_box ? without_misses(frame, particles, i, all) : all;
         };
-        visit_near(first, count, near, respond, resolve);
+        visit_near(first, count, near, respond, far, resolve);
         return;
     }
     // Particles' boxes grow by no more than the frame's does here; each is looked at by its own later.
@@ -271,12 +289,13 @@ void resolve_solid(const ContactFrame& frame, const ParticleArrays& particles, s
         const std::uint64_t in_box = kernels.near_box(task, i, n);
         return frame.rotating ? without_misses(frame, particles, i, in_box) : in_box;
     };
-    visit_near(first, count, near, respond, resolve);
+    visit_near(first, count, near, respond, far, resolve);
 }
 
 // A plane is met only by what is below it in the end. Heights on 24 fraction bits decide for most.
 void resolve_plane(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                   std::uint32_t count, const Kernels& kernels, ContactReaction* reaction) {
+                   std::uint32_t count, const Kernels& kernels, ContactReaction* reaction,
+                   const FarPushes* far) {
     const fixed::Matrix3& r = frame.end_rotation;
     const fixed::Vec3& c = frame.end_centre;
     const std::int32_t a = r.m[0][1], b = r.m[1][1], d = r.m[2][1];
@@ -286,34 +305,63 @@ void resolve_plane(const ContactFrame& frame, const ParticleArrays& particles, s
                          {a, b, d},
                          certainly_above + a * (c.x >> 32) + b * (c.y >> 32) + d * (c.z >> 32)};
     const auto near = [&](std::uint32_t i, std::uint32_t n) { return kernels.near_plane(task, i, n); };
-    WideResponse respond(frame, particles, kernels.respond, reaction);
-    visit_near(first, count, near, respond, [&](std::uint32_t i) {
+    WideResponse respond(frame, particles, kernels.respond, reaction, far);
+    visit_near(first, count, near, respond, far, [&](std::uint32_t i) {
         Way way{};
-        way.end = plane_local(r, position_of(particles, i), c);
-        way.start = plane_local(frame.start_rotation, start_of(particles, i), frame.start_centre);
         Contact contact{};
-        if (find_plane_contact(frame, way, contact)) {
-            apply(frame, way, contact, particles, i, reaction);
-        }
+        return meets_plane(frame, position_of(particles, i), start_of(particles, i), way, contact)
+                   ? apply(frame, way, contact, particles, i, reaction)
+                   : 0;
     });
+}
+
+// What find_new_depth() finds of one shape.
+template <typename Meets>
+bool find_new_depth_of(const ContactFrame& frame, const fixed::Vec3& position, const fixed::Vec3& start,
+                       const Meets& meets, NewDepth& out) {
+    Way way{};
+    Contact contact{};
+    if (!meets(frame, position, start, way, contact)) {
+        return false;
+    }
+    out = {fixed::rotate(frame.end_rotation, contact.normal), contact.depth - contact.old_depth};
+    return out.depth > 0;
 }
 
 } // namespace
 
 void resolve_contacts(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                      std::uint32_t count, const Kernels& kernels, ContactReaction* reaction) {
+                      std::uint32_t count, const Kernels& kernels, ContactReaction* reaction,
+                      const FarPushes* far) {
     if (!frame.reachable) {
         return;
     }
     switch (frame.shape.kind) {
     case LKS_SHAPE_PLANE:
-        return resolve_plane(frame, particles, first, count, kernels, reaction);
+        return resolve_plane(frame, particles, first, count, kernels, reaction, far);
     case LKS_SHAPE_SPHERE:
-        return resolve_solid<LKS_SHAPE_SPHERE>(frame, particles, first, count, kernels, reaction);
+        return resolve_solid<LKS_SHAPE_SPHERE>(frame, particles, first, count, kernels, reaction, far);
     case LKS_SHAPE_CAPSULE:
-        return resolve_solid<LKS_SHAPE_CAPSULE>(frame, particles, first, count, kernels, reaction);
+        return resolve_solid<LKS_SHAPE_CAPSULE>(frame, particles, first, count, kernels, reaction, far);
     default:
-        return resolve_solid<LKS_SHAPE_BOX>(frame, particles, first, count, kernels, reaction);
+        return resolve_solid<LKS_SHAPE_BOX>(frame, particles, first, count, kernels, reaction, far);
+    }
+}
+
+bool find_new_depth(const ContactFrame& frame, const fixed::Vec3& position, const fixed::Vec3& start,
+                    NewDepth& out) {
+    if (frame.has_box && misses_box(frame, position, start)) {
+        return false;
+    }
+    switch (frame.shape.kind) {
+    case LKS_SHAPE_PLANE:
+        return find_new_depth_of(frame, position, start, meets_plane, out);
+    case LKS_SHAPE_SPHERE:
+        return find_new_depth_of(frame, position, start, meets_solid<LKS_SHAPE_SPHERE>, out);
+    case LKS_SHAPE_CAPSULE:
+        return find_new_depth_of(frame, position, start, meets_solid<LKS_SHAPE_CAPSULE>, out);
+    default:
+        return find_new_depth_of(frame, position, start, meets_solid<LKS_SHAPE_BOX>, out);
     }
 }
 

@@ -11,6 +11,8 @@
 // particle was inside already at the start of the substep, start is moved by as well: recovering from an old
 // overlap gives no speed.
 //
+// That holds of one collider. The next one's plane may lie behind this one's: far_pushes.h.
+//
 // The limit: whatever ends a substep more than 63 m from a shape's centre is not looked at, so that a
 // collider which covers some 60 m in one substep passes what is in its way.
 #pragma once
@@ -47,10 +49,28 @@ protected:
     ~ContactReaction() = default;
 };
 
+// Whom colliders push far in this substep, old overlaps aside.
+struct FarPushes {
+    std::int64_t beyond;  // Coordinate
+    std::uint64_t* words; // bit i % 64 of word i / 64 is set for particle i
+};
+
 // Particles first .. first + count - 1. Each result depends on that particle and the frame only, and
 // with a reaction on the particles before it. Positions
-// that are pushed beyond ±coordinate_limit stop there. No undefined behaviour for any positions.
+// that are pushed beyond ±coordinate_limit stop there. No undefined behaviour for any positions. With `far`,
+// `first` is a multiple of 64.
 void resolve_contacts(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
-                      std::uint32_t count, const Kernels& kernels, ContactReaction* reaction = nullptr);
+                      std::uint32_t count, const Kernels& kernels, ContactReaction* reaction = nullptr,
+                      const FarPushes* far = nullptr);
+
+// A plane behind which a particle has got in this substep, in object space.
+struct NewDepth {
+    fixed::Direction normal;
+    std::int64_t depth;
+};
+
+// False: the particle has not got into the shape any deeper than it was.
+bool find_new_depth(const ContactFrame& frame, const fixed::Vec3& position, const fixed::Vec3& start,
+                    NewDepth& out);
 
 } // namespace lks

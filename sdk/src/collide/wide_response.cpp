@@ -25,7 +25,8 @@ bool centres_are_near(const ContactFrame& frame) {
     return near(frame.start_centre) && near(frame.end_centre);
 }
 
-ResponseTask make_task(const ContactFrame& frame, const ParticleArrays& particles) {
+ResponseTask make_task(const ContactFrame& frame, const ParticleArrays& particles,
+                       std::int64_t greatest_new_depth) {
     constexpr fixed::Matrix3 none = fixed::to_matrix(fixed::identity_rotation());
     const Shape& shape = frame.shape;
     const fixed::Vec3& a = frame.start_centre;
@@ -43,7 +44,8 @@ ResponseTask make_task(const ContactFrame& frame, const ParticleArrays& particle
                       frame.static_friction,
                       frame.dynamic_friction,
                       frame.greatest_recovery,
-                      contact_tolerance};
+                      contact_tolerance,
+                      greatest_new_depth};
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column) {
             task.start_rotation[row][column] = frame.start_rotation.m[row][column];
@@ -56,8 +58,9 @@ ResponseTask make_task(const ContactFrame& frame, const ParticleArrays& particle
 } // namespace
 
 WideResponse::WideResponse(const ContactFrame& frame, const ParticleArrays& particles,
-                           const ResponseKernels& kernels, const ContactReaction* reaction)
-    : frame_(frame), particles_(particles),
+                           const ResponseKernels& kernels, const ContactReaction* reaction,
+                           const FarPushes* far)
+    : frame_(frame), particles_(particles), greatest_new_depth_(far == nullptr ? INT64_MAX : far->beyond),
       respond_(reaction == nullptr && centres_are_near(frame) ? response_to(frame.shape.kind, kernels)
                                                               : nullptr) {}
 
@@ -66,7 +69,7 @@ std::uint64_t WideResponse::operator()(std::uint32_t first, std::uint32_t count,
         return near;
     }
     if (!task_) {
-        task_ = make_task(frame_, particles_);
+        task_ = make_task(frame_, particles_, greatest_new_depth_);
     }
     return respond_(*task_, first, count, near);
 }

@@ -10,9 +10,9 @@ namespace lks {
 
 class WideResponse {
 public:
-    // With a reaction each depends on the one before.
+    // With a reaction each depends on the one before. Those that are pushed far are left.
     WideResponse(const ContactFrame& frame, const ParticleArrays& particles, const ResponseKernels& kernels,
-                 const ContactReaction* reaction);
+                 const ContactReaction* reaction, const FarPushes* far);
 
     // Of particles first .. first + count - 1, those of which the bits of `near` are set; the bits of those
     // that are left.
@@ -21,6 +21,7 @@ public:
 private:
     const ContactFrame& frame_;
     const ParticleArrays& particles_;
+    std::int64_t greatest_new_depth_;
     Respond respond_;                  // null: one by one
     std::optional<ResponseTask> task_; // once somebody is near
 };

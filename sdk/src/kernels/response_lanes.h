@@ -25,7 +25,8 @@ class ResponseLanes : NormaliseLanes<L> {
 
 public:
     explicit ResponseLanes(const ResponseTask& task)
-        : task_(task), surface_(task), greatest_new_depth_(L::set(greatest_new_depth(task))) {}
+        : task_(task), surface_(task), greatest_sure_depth_(L::set(greatest_sure_depth(task))),
+          greatest_new_depth_(L::set(task.greatest_new_depth)) {}
 
     // Of particles first .. first + L::half - 1 those whose bits are set; returns the bits of those left.
     LKS_FORCE_INLINE std::uint32_t respond(std::uint32_t first, std::uint32_t near) const {
@@ -52,6 +53,9 @@ public:
             }
             contact = trace(way, hit, left);
         }
+        const R new_depth = L::subtract(contact.depth, contact.old_depth);
+        left = L::bit_or(left, L::bit_and(hit, L::subtract(greatest_new_depth_, new_depth)));
+        hit = L::and_not(left, hit);
         if (L::sign_bits(hit) == 0) {
             return L::sign_bits(left);
         }
@@ -69,7 +73,8 @@ private:
         R depth, old_depth;
     };
 
-    static std::int64_t greatest_new_depth(const ResponseTask& task) {
+    // Up to which friction() has room.
+    static std::int64_t greatest_sure_depth(const ResponseTask& task) {
         const std::int64_t coefficient =
             (std::max(task.static_friction, task.dynamic_friction) >> friction_fraction_bits) + 1;
         return (std::int64_t{1} << 60) / coefficient;
@@ -218,7 +223,7 @@ private:
                                  L::equal(L::bit_or(L::bit_or(sliding.x, sliding.y), sliding.z), zero));
         const typename N::Unit slide = N::normalise(sliding);
         const R odd =
-            L::bit_or(L::bit_or(slide.tiny, L::subtract(greatest_new_depth_, new_depth)),
+            L::bit_or(L::bit_or(slide.tiny, L::subtract(greatest_sure_depth_, new_depth)),
                       L::exclusive_or(L::equal(V::template not_within<59>(sliding), zero), L::set(-1)));
         left = L::bit_or(left, L::bit_and(hit, L::and_not(idle, odd)));
         const R loss = L::minimum_signed(times_friction(task_.dynamic_friction, new_depth), slide.length);
@@ -261,7 +266,7 @@ private:
 
     const ResponseTask& task_;
     S surface_;
-    R greatest_new_depth_;
+    R greatest_sure_depth_, greatest_new_depth_;
 };
 
 template <typename L, lks_shape_kind kind>

@@ -22,6 +22,7 @@ struct ResponseTask {
     std::uint32_t dynamic_friction;
     std::int64_t greatest_recovery;
     std::int64_t tolerance;
+    std::int64_t greatest_new_depth; // what is pushed further, old overlaps aside, is left
 };
 
 inline constexpr std::int64_t response_centre_limit = std::int64_t{1} << 62;

@@ -5,6 +5,7 @@
 
 #include "collide/broad_phase.h"
 #include "collide/contact.h"
+#include "collide/second_look.h"
 #include "fixed/formats.h"
 #include "solver/chain.h"
 #include "solver/distance.h"
@@ -156,25 +157,31 @@ public:
         }
         leave_rows();
         const Bounds swept = swept_bounds();
+        const FarPushes far{std::min(greatest_unlooked_push, world_.rate.greatest_recovery),
+                            scratch_.far_pushed.data()};
+        if (candidate_count_ > 1) {
+            std::fill_n(far.words, look_words(object_.count()), 0);
+        }
         bool touched = false;
         for (std::uint32_t i = 0; i < candidate_count_; ++i) {
-            const ColliderState& collider = world_.colliders[candidates_[i]].collider;
-            if (!may_touch(collider, object_.origin, swept, asset_.particle_radius)) {
+            ContactFrame frame{};
+            if (!find_frame(candidates_[i], substep, swept, frame)) {
                 continue;
             }
-            ContactFrame frame = make_contact_frame(collider, substep, world_.rate.substeps, object_.origin,
-                                                    swept, asset_.particle_radius, asset_.friction);
-            frame.greatest_recovery = world_.rate.greatest_recovery;
             if (frame.rotating && frame.reachable) {
                 frame.greatest_growth = object_.greatest_growth(*world_.kernels);
             }
             in_blocks(object_.count(), particles_a_block,
                       [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
-                          resolve_contacts(frame, particle_arrays(), first, count, *world_.kernels);
+                          resolve_contacts(frame, particle_arrays(), first, count, *world_.kernels, nullptr,
+                                           candidate_count_ > 1 ? &far : nullptr);
                       });
             touched = true;
         }
         if (touched) {
+            if (candidate_count_ > 1) {
+                look_again(far, substep);
+            }
             place_pins(object_, substep, world_.rate.substeps);
             bounds_.reset();
             start_bounds_.reset();
@@ -186,6 +193,59 @@ public:
     }
 
 private:
+    bool is_near(std::uint32_t index, const Bounds& bounds) const {
+        return may_touch(world_.colliders[index].collider, object_.origin, bounds, asset_.particle_radius);
+    }
+
+    // False: nothing within the bounds touches it in this substep.
+    bool find_frame(std::uint32_t index, std::uint32_t substep, const Bounds& bounds,
+                    ContactFrame& frame) const {
+        if (!is_near(index, bounds)) {
+            return false;
+        }
+        frame = make_contact_frame(world_.colliders[index].collider, substep, world_.rate.substeps,
+                                   object_.origin, bounds, asset_.particle_radius, asset_.friction);
+        frame.greatest_recovery = world_.rate.greatest_recovery;
+        return true;
+    }
+
+    // At who was pushed far: perhaps through another collider, also one that was out of reach before.
+    void look_again(const FarPushes& far, std::uint32_t substep) {
+        in_blocks(object_.count(), particles_a_block,
+                  [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
+                      for (std::uint32_t i = first; i < first + count; i += particles_a_look) {
+                          if (const std::uint64_t who = far.words[i / particles_a_look]; who != 0) {
+                              SecondLook look(particle_arrays(), far.beyond, i, who);
+                              look_again(look, substep);
+                          }
+                      }
+                  });
+    }
+
+    void look_again(SecondLook& look, std::uint32_t substep) const {
+        if (!is_among_several(look.bounds())) {
+            return;
+        }
+        while (!look.done()) {
+            const Bounds bounds = look.bounds();
+            for (std::uint32_t i = 0; i < candidate_count_; ++i) {
+                ContactFrame frame{};
+                if (find_frame(candidates_[i], substep, bounds, frame) && frame.reachable) {
+                    look.meet(frame);
+                }
+            }
+            look.end_round();
+        }
+    }
+
+    bool is_among_several(const Bounds& bounds) const {
+        std::uint32_t near = 0;
+        for (std::uint32_t i = 0; i < candidate_count_ && near < 2; ++i) {
+            near += is_near(candidates_[i], bounds) ? 1u : 0u;
+        }
+        return near > 1;
+    }
+
     // Colliders that the object can reach in so many substeps at its speed limit; each substep looks at its
     // true bounds again.
     void find_candidates(Bounds bounds, std::uint32_t substeps) {
@@ -353,7 +413,8 @@ private:
     }
 
     // Calls body(block, first, count) for parts of `count` elements of about `grain` each, one after the
-    // other or at the same time, and returns how many parts. Parts begin at whole groups of the kernels.
+    // other or at the same time, and returns how many parts. Parts begin at whole groups of the kernels and
+    // at whole words of FarPushes.
     template <typename Body>
     std::uint32_t in_blocks(std::uint32_t count, std::uint32_t grain, const Body& body) {
         const std::uint32_t wanted =
@@ -362,7 +423,8 @@ private:
             body(0, 0, count);
             return 1;
         }
-        const std::uint32_t size = (count / wanted + widest_group) / widest_group * widest_group;
+        static_assert(particles_a_look % widest_group == 0);
+        const std::uint32_t size = (count / wanted + particles_a_look) / particles_a_look * particles_a_look;
         run_blocks(team_, count, size, [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
             body(first / size, first, end - first);
         });
@@ -409,6 +471,9 @@ private:
     // Of a torn rope, in an iteration. What a substep of 0.1 s falls tears one that began whole: it has to be
     // whole again at its end.
     static constexpr int most_mendings = 8;
+    // What is pushed no further than a millimetre, or than an old overlap is undone, is not looked at again:
+    // one push after the other stops it, of an angle a between two plates some mm/sin²a behind their faces.
+    static constexpr std::int64_t greatest_unlooked_push = coordinate_one >> 10;
     // More would even out the last blocks of a phase better, and cost more taking.
     static constexpr std::uint32_t blocks_a_worker = 2;
 

@@ -17,6 +17,7 @@ struct TickScratch {
     Array<std::int64_t> rows;        // room for those of the object that has most
     Array<std::int64_t> chain;       // room for the longest rope that is solved directly
     Array<TetherAnchor> anchors;     // room for those of the asset that has most
+    Array<std::uint64_t> far_pushed; // room for a bit for each particle of the object that has most
     lks_world_counters counters{};   // of this tick
 };
 

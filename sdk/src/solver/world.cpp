@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "collide/second_look.h"
 #include "solver/kept_rope.h"
 #include "solver/particle_rows.h"
 
@@ -27,6 +28,7 @@ lks_world::lks_world(const lks_world_def& def)
         worker.chain.set_allocator(allocator);
         worker.rows.set_allocator(allocator);
         worker.anchors.set_allocator(allocator);
+        worker.far_pushed.set_allocator(allocator);
     }
 }
 
@@ -112,7 +114,8 @@ bool lks_world::reserve_scratch(const lks_asset& asset, const Coefficients& coef
         if (!scratch[worker].distances.reserve(asset.batches.size()) ||
             !scratch[worker].rows.reserve(lks::row_words(asset, coefficients)) ||
             !scratch[worker].chain.reserve(chain_words) ||
-            !scratch[worker].anchors.reserve(asset.tethers.anchors.size())) {
+            !scratch[worker].anchors.reserve(asset.tethers.anchors.size()) ||
+            !scratch[worker].far_pushed.reserve(lks::look_words(asset.vertex_count()))) {
             return false;
         }
     }
