@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 
@@ -123,5 +124,34 @@ TEST_CASE("heavy bodies with a light link between them go on as they were saved"
         REQUIRE(lks_world_load(other.world, image.data(), image.size()) == LKS_OK);
         other.world.step(100);
         CHECK(other.world.hash() == hash);
+    }
+}
+
+TEST_CASE("heavy bodies with a light link between them hang on a rope and gain no energy") {
+    for (const Hold hold : {Hold::hinges, Hold::fixed, Hold::limits}) {
+        for (const double ratio : {10., 50., 200.}) {
+            for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+                Barbell barbell(hold, ratio, substeps);
+                Chain chain;
+                chain.segments = 10;
+                chain.length = 1;
+                chain.particle_mass = 0.02;
+                chain.solver = LKS_ROPE_DIRECT;
+                const Asset rope = chain.build();
+                const lks_object_id object = barbell.world.add(rope, at(-1.6, 0, 0));
+                barbell.world.pin(object, 0);
+                attach(barbell.world, to_body(object, 10, barbell.bodies[0], fixed(-0.2, 0, 0)));
+                const double start = whole_energy(barbell.world, barbell.bodies, 3);
+                double apart = 0, most = 0;
+                for (int tick = 0; tick < 600; ++tick) {
+                    barbell.world.step();
+                    apart = std::max(apart, barbell.apart());
+                    most = std::max(most, whole_energy(barbell.world, barbell.bodies, 3) - start);
+                }
+                INFO(std::string(name_of(hold)) << ", 1 : " << ratio << ", " << substeps << " substeps");
+                CHECK(apart < 1e-3);
+                CHECK(most < 0.01 * 2 * ratio * 9.81);
+            }
+        }
     }
 }

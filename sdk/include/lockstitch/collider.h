@@ -5,8 +5,9 @@
  * of the exact distance), in the collider's own moving frame. Friction is Coulomb's, static and dynamic. What
  * is inside already, since a collider was put there or another one leaves no room, gets out at 3 m/s.
  * Colliders push one after the other, once an iteration. Who is pushed by more than a millimetre meets all of
- * them again: in a groove between two plates of 5 cm that are 10° or more apart nothing passes at up to
- * 100 m/s, at any number of substeps tried. In a narrower one what sinks by less a substep may.
+ * them again, where these move alike and do not turn: in a groove between two plates of 5 cm that are 10° or
+ * more apart nothing passes at up to 100 m/s, at any number of substeps tried. In a narrower one what sinks
+ * by less a substep may, and where plates close on it the last push wins.
  * Bodies (lockstitch/body.h) meet colliders as they meet each other. Restitution is for bodies alone:
  * particles do not bounce.
  */

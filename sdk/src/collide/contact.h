@@ -11,7 +11,7 @@
 // particle was inside already at the start of the substep, start is moved by as well: recovering from an old
 // overlap gives no speed.
 //
-// That holds of one collider. The next one's plane may lie behind this one's: far_pushes.h.
+// That holds of one collider. The next one's plane may lie behind this one's: second_look.h.
 //
 // The limit: whatever ends a substep more than 63 m from a shape's centre is not looked at, so that a
 // collider which covers some 60 m in one substep passes what is in its way.

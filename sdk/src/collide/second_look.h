@@ -8,8 +8,10 @@
 // Here who was pushed far meets all colliders again, and each pushes along the planes of the last two instead
 // of into them: two planes, or three, are done with at once. That is the point nearest to where the particle
 // was of all in front of the planes, so that nothing gets faster by it. Where there is no such way, or it is
-// not found soon, the particle stays where it was when the substep began: that was outside of what stands
-// still. What moves pushes it from there as if it were alone. No friction: the first look had it.
+// not found soon, the particle stays where it was when the substep began. No friction: the first look had it.
+//
+// Only of colliders that move alike: where they close on a cloth pushes that give way to each other would
+// bring all of it to one point, out of which it can't get.
 #pragma once
 
 #include <cstddef>
@@ -55,9 +57,9 @@ private:
     fixed::Vec3 start(std::uint32_t i) const;
     void move_to(std::uint32_t i, const fixed::Vec3& position);
 
-    const ParticleArrays particles_;
-    const std::int64_t tolerance_;
-    const std::uint32_t first_;
+    ParticleArrays particles_;
+    std::int64_t tolerance_;
+    std::uint32_t first_;
     std::uint64_t active_;       // bits as `who`
     std::uint64_t behind_ = 0;   // were behind somebody's plane in this round
     std::uint64_t put_back_ = 0; // to where they began

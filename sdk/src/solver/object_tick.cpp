@@ -223,7 +223,7 @@ private:
     }
 
     void look_again(SecondLook& look, std::uint32_t substep) const {
-        if (!is_among_several(look.bounds())) {
+        if (!is_among_several_that_move_alike(look.bounds())) {
             return;
         }
         while (!look.done()) {
@@ -238,12 +238,23 @@ private:
         }
     }
 
-    bool is_among_several(const Bounds& bounds) const {
+    // What moves against each other may leave no room at all: then pushes that give way to one another would
+    // bring all particles to one point.
+    bool is_among_several_that_move_alike(const Bounds& bounds) const {
         std::uint32_t near = 0;
-        for (std::uint32_t i = 0; i < candidate_count_ && near < 2; ++i) {
-            near += is_near(candidates_[i], bounds) ? 1u : 0u;
+        bool alike = true;
+        fixed::Vec3 first_way{};
+        for (std::uint32_t i = 0; i < candidate_count_ && alike; ++i) {
+            if (!is_near(candidates_[i], bounds)) {
+                continue;
+            }
+            const ColliderState& collider = world_.colliders[candidates_[i]].collider;
+            const fixed::Vec3 way = collider.target_position - collider.position;
+            first_way = near == 0 ? way : first_way;
+            alike = !collider.rotates() && way == first_way;
+            ++near;
         }
-        return near > 1;
+        return alike && near > 1;
     }
 
     // Colliders that the object can reach in so many substeps at its speed limit; each substep looks at its
