@@ -87,38 +87,6 @@ void hang_cloths(bool tethered) {
     }
 }
 
-// Threads that do not give, shear and bend soft and damped. A limit: what the threads are moved by is motion
-// to the damping of the others, which from ten times critical on are as stiff against it. Up to critical
-// damping its motion is of 7 J.
-struct Uneven {
-    double factor;
-    Aftermath aftermath;
-    double joules = 0, stretch = 0; // above critical damping; percent
-};
-
-void hang_undamped_threads(bool tethered, const Uneven& uneven) {
-    const double factor = uneven.factor;
-    Net net = small_net(tethered);
-    const auto damped = [&](double compliance) {
-        return soft(compliance, factor * 2 * std::sqrt(net.particle_mass / compliance));
-    };
-    net.shear = damped(1e-5);
-    net.bend = damped(1e-2);
-    HangingNet hanging(net);
-    Trial& trial = hanging.trial;
-    trial.run(factor > 1 ? 240 : 480);
-    const std::string name =
-        name_of(named(tethered ? "tethered cloth" : "cloth", " 12 × 12, only shear and bend damped"), factor);
-    if (factor > 1) {
-        expect_kinetic_energy_at_most(name, trial, uneven.joules);
-        expect_stretch_at_most(name, trial, uneven.stretch, uneven.aftermath);
-    } else {
-        expect_gain_at_most(name, trial, 1);
-        expect_stretch_at_most(name, trial, 25, uneven.aftermath);
-    }
-    expect_nothing_clamped(trial);
-}
-
 // Three capsules in a level chain on soft joints, let go.
 void hang_joints(double factor) {
     Jointed scene(world_def(60, 20));
@@ -166,17 +134,6 @@ void hang_damped_bodies(double damping) {
 TEST_CASE("a cloth with up to a thousand times its critical damping gains nothing") {
     hang_cloths(false);
     hang_cloths(true);
-}
-
-TEST_CASE("a cloth of which shear and bend are damped and threads are not holds up to its critical damping") {
-    for (const Uneven& uneven : {Uneven{0.1, {6}}, Uneven{1, {}}, Uneven{10, {0, 92}, 600, 600},
-                                 Uneven{100, {0, 98.5}, 4e3, 2500}, Uneven{1e3, {0, 97}, 3e4, 5e3}}) {
-        hang_undamped_threads(false, uneven);
-    }
-    for (const Uneven& uneven : {Uneven{0.1, {4}}, Uneven{1, {6}}, Uneven{10, {0, 93.5}, 600, 600},
-                                 Uneven{100, {0, 94.5}, 7e3, 2500}, Uneven{1e3, {0, 99.2}, 8e3, 5e3}}) {
-        hang_undamped_threads(true, uneven);
-    }
 }
 
 TEST_CASE("joints with up to a thousand times their critical damping hold and gain nothing") {

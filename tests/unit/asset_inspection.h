@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "asset/asset.h"
+#include "asset/family_order.h"
 
 namespace inspection {
 
@@ -45,6 +46,7 @@ inline void numbering_is_a_permutation(const lks_asset& asset) {
 // The batches divide the constraints, in the order of families and colours, and none touches a particle
 // twice: the promise on which "inside a colour, no order" rests.
 inline void batches_are_independent(const lks_asset& asset) {
+    const lks::FamilyOrder order = lks::order_families(asset.families);
     std::vector<std::uint32_t> last_batch(asset.vertex_count(), UINT32_MAX);
     std::uint32_t next = 0;
     std::uint32_t touched_twice = 0;
@@ -56,7 +58,7 @@ inline void batches_are_independent(const lks_asset& asset) {
         CHECK(batch.family < lks::family_count);
         CHECK(asset.families[batch.family].enabled);
         if (b > 0) {
-            CHECK(batch.family >= asset.batches[b - 1].family);
+            CHECK(order.place[batch.family] >= order.place[asset.batches[b - 1].family]);
         }
         next = batch.first + batch.count;
         REQUIRE(next <= asset.constraint_count());

@@ -21,7 +21,9 @@ typedef struct lks_asset lks_asset;
 #define LKS_MAX_TRIANGLES 8388608u
 #define LKS_MAX_ASSET_COORDINATE 60.0 /* metres from the asset's origin, on each axis */
 
-/* The material of one family of distance constraints (XPBD eq. 26). */
+/* The material of one family of distance constraints (XPBD eq. 26). Families are swept in the order stretch,
+ * shear, bend, but what is damped more (compliance · damping) before what is damped less: damping far beyond
+ * critical then takes energy out beside threads that don't give, too. */
 typedef struct lks_distance_material {
     double compliance; /* m/N, the inverse of stiffness; 0 is inextensible; 0 or 1e-15 .. 1e6 */
     double damping; /* N·s/m along the constraint (Rayleigh β); 0 or 1e-9 .. 1e9. No effect where compliance

@@ -1,5 +1,6 @@
 #include "asset/build.h"
 
+#include "asset/family_order.h"
 #include "asset/spare_particles.h"
 
 #include <algorithm>
@@ -43,8 +44,9 @@ void order_drafts(Build& build) {
         draft.a = std::min(a, b);
         draft.b = std::max(a, b);
     }
-    std::sort(build.drafts.begin(), build.drafts.end(), [](const Draft& l, const Draft& r) {
-        return l.family != r.family   ? l.family < r.family
+    const FamilyOrder order = order_families(build.asset.families);
+    std::sort(build.drafts.begin(), build.drafts.end(), [&](const Draft& l, const Draft& r) {
+        return l.family != r.family   ? order.place[l.family] < order.place[r.family]
                : l.colour != r.colour ? l.colour < r.colour
                                       : l.a < r.a;
     });

@@ -79,7 +79,7 @@ Subject subject_of(const support::Chain& chain, const support::Asset& asset) {
     Subject subject;
     subject.asset = &asset;
     subject.masses.assign(asset.vertex_count(), chain.particle_mass);
-    subject.materials = {chain.stretch, support::off, support::off};
+    subject.materials = {chain.stretch, support::off, chain.bend};
     subject.rope = true;
     subject.solver = chain.solver;
     return subject;
