@@ -74,7 +74,7 @@ void look_at_joints(const lks_world* world, const lks_demo::Mannequin& mannequin
 TEST_CASE("the mannequins of the scenes hold together, keep to their limits and fall asleep") {
     const lks_demo::Mannequin mannequin;
     const Bounds all[] = {
-        {"ragdoll_stairs", 1, 1e-4, 1.0, 0.5, 600},
+        {"ragdoll_stairs", 1, 5e-4, 2.0, 0.5, 600},
         {"ragdoll_pile", 30, 1e-3, 3.0, 0.5, 600},
     };
     for (const Bounds& bounds : all) {

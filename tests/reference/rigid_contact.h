@@ -58,6 +58,10 @@ public:
     std::vector<Point> points;
 
     auto key() const { return std::tuple(a, b, shape_a, shape_b); }
+    bool pushes() const {
+        return std::any_of(points.begin(), points.end(),
+                           [](const Point& point) { return point.active && point.push != 0; });
+    }
     bool is_of_same_bodies(const BodyContact& other) const { return a == other.a && b == other.b; }
 
     // `manifold` is relative to a's centre of mass.

@@ -34,6 +34,18 @@ public:
 
     void set_motor(const RigidMotor& motor) { drive_.set_motor(motor); }
 
+    // Its motor, or a spring.
+    bool does_work() const {
+        return drive_.is_motor() || points_softness_.is_soft() || turn_softness_.is_soft() ||
+               limits.is_soft();
+    }
+
+    // Turns without any resistance.
+    bool only_pulls() const {
+        return kind_ == LKS_JOINT_BALL && in_tree && !limits.any() && !drive_.resists();
+    }
+    Vec point_of(const Body& body, bool is_a) const { return body.rotation * (is_a ? point_a_ : point_b_); }
+
     std::size_t a, b;
     bool in_tree = false; // its points are solved there
     bool in_held_tree = false;

@@ -36,6 +36,7 @@ public:
 
     bool is_motor() const { return motor_; }
     bool acts() const { return most_ > 0; }
+    bool resists() const { return acts() || drag_softness_ > 0; }
 
     // Before the prediction: what the motor is to turn in the substep.
     void begin(const Body& a, const Body& b) {

@@ -30,6 +30,9 @@ public:
           twist_min_(static_cast<Scalar>(joint.twist_min)), twist_max_(static_cast<Scalar>(joint.twist_max)),
           softness_(joint.limit_compliance, joint.limit_damping, rate) {}
 
+    bool is_soft() const { return softness_.is_soft(); }
+    bool any() const { return swings_ || twists_; }
+
     // Before the prediction: how far they let turn.
     void begin(const Body& a, const Body& b) {
         Swing swing;

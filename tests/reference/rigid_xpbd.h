@@ -23,6 +23,7 @@
 
 #include "reference/rigid_carried_pushes.h"
 #include "reference/rigid_figure_overlaps.h"
+#include "reference/rigid_free_figures.h"
 #include "reference/rigid_free_motion.h"
 #include "reference/rigid_held_trees.h"
 #include "reference/rigid_joint_trees.h"
@@ -161,6 +162,7 @@ private:
             contact.begin(a, b, rate_);
         });
         parts_.for_each_joint([](Joint& joint, Body& a, Body& b) { joint.begin(a, b); });
+        free_.begin_substep(number);
         parts_.measure_left(rate_);
         strike_all();
         for (Body& body : bodies_) {
@@ -184,6 +186,7 @@ private:
             body.predicted_spin = body.spin;
             motion_.finish(body);
         }
+        free_.finish_substep(number);
         restore_speeds();
         parts_.for_each_joint([this](const Joint& joint, Body& a, Body& b) {
             if (!joint.in_tree) {
@@ -363,6 +366,7 @@ private:
     JointTrees<Scalar> trees_{parts_};
     HeldTrees<Scalar> held_{parts_, trees_};
     CarriedPushes<Scalar> carried_;
+    FreeFigures<Scalar> free_{parts_, Vec(settings_.gravity), rate_, settings_.substeps};
     std::vector<Move> contact_moves_; // of a contact sweep, by body
 };
 

@@ -104,6 +104,7 @@ struct Body : BodyState {
     fixed::Vec3 predicted_position;
     Quaternion start_orientation;
     Quaternion predicted_orientation;
+    fixed::Vec3 predicted_spin;     // in the middle of the substep
     fixed::Vec3 uncarried_position; // before anything that was pushed in the last substep was pushed again
     Quaternion uncarried_orientation;
 

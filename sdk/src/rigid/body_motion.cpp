@@ -150,6 +150,7 @@ void predict_body(Body& body, const BodyDescription& description, const BodyTick
     }
     body.predicted_position = body.position;
     body.predicted_orientation = body.orientation;
+    body.predicted_spin = body.angular_velocity;
     body.world_inverse =
         description.properties.round ? body.inverse_inertia : rotated(body.inverse_inertia, body.rotation);
 }
@@ -215,6 +216,15 @@ void finish_body(Body& body, const BodyDescription& description, const MotionRat
         body.angular_velocity =
             w + fixed::rotate(body.rotation, change) - Vec3{w.x >> 33, w.y >> 33, w.z >> 33};
     }
+}
+
+Vec3 predicted_own_momentum(const Body& body, const BodyDescription& description, const MotionRate& rate) {
+    const fixed::Matrix3 rotation = fixed::to_matrix(narrow(body.predicted_orientation));
+    const Vec3 spin = fixed::rotate_transposed(rotation, body.predicted_spin);
+    const Vec3 middle = multiply(description.properties.inertia, spin);
+    const bool constant = description.properties.round || is_slow(body.predicted_spin);
+    const Vec3 end = constant ? middle : middle + cross_turn(middle, to_half_turn(spin, rate));
+    return fixed::rotate(rotation, end);
 }
 
 } // namespace lks

@@ -47,6 +47,11 @@ void place_kinematic(Body& body, std::uint32_t substep, std::uint32_t substeps, 
 void finish_body(Body& body, const BodyDescription& description, const MotionRate& rate,
                  std::uint64_t& speed_clamps);
 
+// I·ω at the end of a substep if nothing has moved the body from where it was predicted: in world axes, World,
+// of a kilogram in its unit of length. By the midpoint rule IΩ_mid + IΩ_mid × hΩ_mid/2.
+fixed::Vec3 predicted_own_momentum(const Body& body, const BodyDescription& description,
+                                   const MotionRate& rate);
+
 // Velocity and spin within their limits; what was not is counted.
 void limit_speeds(Body& body, const MotionRate& rate, std::uint64_t& speed_clamps);
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "fixed/int128.h"
 #include "rigid/body.h"
 
 namespace lks {
@@ -26,6 +27,26 @@ constexpr std::uint32_t index_of(std::uint64_t part) {
     return static_cast<std::uint32_t>(part);
 }
 
+struct Sum3 {
+    fixed::Int128 x{0, 0}, y{0, 0}, z{0, 0};
+
+    friend constexpr Sum3 operator+(const Sum3& a, const Sum3& b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+};
+
+// Of a figure that nothing outside has pushed since it began, but for a pivot (rigid/free_figure.h).
+struct FreeMotion {
+    bool free;
+    bool has_pivot;       // a ball joint holds it there that only pulls
+    fixed::Vec3 pivot;    // World
+    bool passive;         // neither motors, springs nor a pivot do any work on it
+    bool each_substep;    // and not each tick
+    bool gravity_works;   // on its motion about its centre of mass
+    Sum3 lost;            // of its angular momentum
+    fixed::Int128 energy; // that it began with
+};
+
 // Where the parts of each kind begin among all parts, and where the last ones end.
 struct FigureRange {
     std::uint32_t begins[part_kinds + 1];
@@ -35,6 +56,7 @@ struct FigureRange {
     bool is_pinned;       // by an attachment to a particle that does not move
     bool is_loaded;       // its trees hang on ropes that bear them (rigid/rope_loads.h)
     bool relieved;        // in this substep: it had iterations more
+    FreeMotion motion;
 
     std::uint32_t begin() const { return begins[0]; }
     std::uint32_t count(Part kind) const {

@@ -4,6 +4,8 @@
 
 #include "collide/saturation.h"
 #include "rigid/contact_search.h"
+#include "rigid/energy_factor.h"
+#include "rigid/figure_pushes.h"
 #include "rigid/figures.h"
 #include "rigid/joint_distance.h"
 #include "rigid/joint_drive.h"
@@ -16,9 +18,6 @@ namespace {
 using fixed::Int128;
 using fixed::UInt128;
 using fixed::Vec3;
-
-constexpr int factor_fraction_bits = 30;
-constexpr std::int64_t one_factor = std::int64_t{1} << factor_fraction_bits;
 
 // Bodies that move alike hold together.
 bool move_alike(const Body& a, const Body& b) {
@@ -39,15 +38,6 @@ std::int64_t work_of_springs(const Joint& joint, const Body& a, const Body& b) {
         work += work_of_turning(joint, a, b, joint.turn);
     }
     return work;
-}
-
-// √(a/b), 30 fraction bits; b > a ≥ 0.
-std::int64_t root_of_ratio(const Int128& a, const Int128& b) {
-    const UInt128 whole = fixed::abs(b);
-    const int down = std::max(0, 64 - fixed::leading_zeros(whole));
-    const UInt128 part = UInt128{(fixed::abs(a) >> down).lo, 0} >> (64 - 2 * factor_fraction_bits);
-    const std::uint64_t ratio = fixed::divide(part, (whole >> down).lo).quotient.lo;
-    return static_cast<std::int64_t>(fixed::square_root(ratio));
 }
 
 // What a body has moved in the substep, less what its holder would have moved it.
@@ -154,7 +144,7 @@ public:
         });
         if (holder != nullptr && together) {
             take_out_gain(*holder);
-        } else if (holder == nullptr && is_pushed_from_outside()) {
+        } else if (holder == nullptr && is_pushed_from_outside(scene_, range_)) {
             take_out_gain(Body{});
         }
     }
@@ -175,9 +165,7 @@ private:
         });
     }
 
-    bool is_part(std::uint32_t body) const {
-        return scene_.bodies[body].is_awake() && scene_.figures[body] == name_of(scene_, range_);
-    }
+    bool is_part(std::uint32_t body) const { return is_bone_of(scene_, range_, body); }
     bool is_own(std::uint32_t object) const {
         return any_rope_load(scene_, object, [this](std::uint32_t body) { return is_part(body); });
     }
@@ -245,7 +233,7 @@ private:
         if (!is_much_more(after, before + unseen_work())) {
             return one_factor;
         }
-        const std::int64_t factor = root_of_ratio(before, after);
+        const std::int64_t factor = energy_factor(before, after);
         slow_down(holder, factor);
         return factor;
     }
@@ -278,24 +266,6 @@ private:
             });
         }
         return within;
-    }
-
-    static bool pushes(const Contact& contact) {
-        return std::any_of(contact.points, contact.points + contact.count,
-                           [](const ContactPoint& point) { return point.active && point.push.normal != 0; });
-    }
-
-    bool is_pushed_from_outside() const {
-        bool pushed = false;
-        for (const Part kind : {Part::contact, Part::shared_contact}) {
-            for_each(kind, [&](std::uint32_t i) {
-                const ContactKey& key = scene_.contacts[i].key;
-                const bool within =
-                    is_part(key.body_a) && key.other < other_is_collider && is_part(key.other);
-                pushed = pushed || (!within && pushes(scene_.contacts[i]));
-            });
-        }
-        return pushed;
     }
 
     // Bones of its own, and what stands as its holder does.

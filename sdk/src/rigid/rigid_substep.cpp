@@ -35,7 +35,8 @@ Object& coupled_object(lks_world& world, std::uint32_t index) {
 } // namespace
 
 RigidSubstep::RigidSubstep(lks_world& world, Team* team)
-    : world_(world), scene_(world.rigid), team_(team), rate_(world.rate) {
+    : world_(world), scene_(world.rigid), team_(team), rate_(world.rate),
+      free_figures_(scene_, rate_, world.rate.substeps) {
     const fixed::Vec3& g = world.gravity;
     const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
     const std::int64_t gravity_speed = (size(g.x) + size(g.y) + size(g.z)) / rate_.substeps_per_second;
@@ -56,7 +57,7 @@ void RigidSubstep::run(std::uint32_t substep) {
     if (relieve_strained()) {
         collide_objects(substep);
     }
-    finish();
+    finish(substep);
 }
 
 ContactBodies RigidSubstep::bodies_of(const Contact& contact) {
@@ -158,8 +159,9 @@ void RigidSubstep::begin(std::uint32_t substep) {
             wide.add(i);
         }
     });
-    in_figures([this](const FigureRange& figure) {
+    in_figures([&](FigureRange& figure) {
         for_each_joint(figure, [](Joint& joint, Body& a, Body& b) { lks::begin_substep(joint, a, b); });
+        free_figures_.begin_substep(figure, substep);
     });
     for_each_attachment(world_, [this](Attachment& attachment, const AttachmentSides& sides) {
         measure_left(attachment, sides, rate_);
@@ -615,7 +617,7 @@ void RigidSubstep::mark_contacts() {
     });
 }
 
-void RigidSubstep::finish() {
+void RigidSubstep::finish(std::uint32_t substep) {
     if (any_restitution_) {
         scene_.predicted_speeds.clear();
         for (const Body& body : scene_.bodies) {
@@ -628,7 +630,8 @@ void RigidSubstep::finish() {
                         world_.scratch[worker].counters.speed_clamps);
         }
     });
-    in_figures([this](const FigureRange& figure) {
+    in_figures([&](FigureRange& figure) {
+        free_figures_.finish_substep(figure, substep);
         if ((figure.is_held || (figure.has_held_tree && !figure.is_loaded)) && may_gain(figure)) {
             take_out_gain(scene_, figure, rate_);
         }

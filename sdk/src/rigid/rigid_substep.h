@@ -7,6 +7,7 @@
 #pragma once
 
 #include "rigid/body_motion.h"
+#include "rigid/free_figure.h"
 #include "rigid/rigid_scene.h"
 #include "rigid/wide_contacts.h"
 #include "threads/team.h"
@@ -75,12 +76,13 @@ private:
     void project_attachments();
     void project_loaded_ropes();
     void collide_objects(std::uint32_t substep);
-    void finish();
+    void finish(std::uint32_t substep);
 
     lks_world& world_;
     RigidScene& scene_;
     Team* team_;
     MotionRate rate_;
+    FreeFigures free_figures_;
     std::int64_t least_speed_; // of figures whose carried pushes are worth scaling
     bool any_restitution_ = false;
 };

@@ -1,0 +1,207 @@
+#include "rigid/free_figure.h"
+
+#include <algorithm>
+
+#include "collide/saturation.h"
+#include "rigid/energy_factor.h"
+#include "rigid/figure_momentum.h"
+#include "rigid/figure_pushes.h"
+#include "rigid/figures.h"
+
+namespace lks {
+namespace {
+
+using fixed::Int128;
+using fixed::Vec3;
+
+Vec3 times(const Vec3& v, std::int64_t factor) {
+    const auto part = [factor](std::int64_t c) {
+        return fixed::multiply_shift(c, factor, factor_fraction_bits);
+    };
+    return factor == one_factor ? v : Vec3{part(v.x), part(v.y), part(v.z)};
+}
+
+bool is_near_particles(const RigidScene& scene, const FigureRange& figure) {
+    const std::uint32_t own = name_of(scene, figure);
+    return std::any_of(scene.object_pairs.begin(), scene.object_pairs.end(), [&](std::uint64_t pair) {
+        return scene.figures[static_cast<std::uint32_t>(pair)] == own;
+    });
+}
+
+// Joints hold it together, and nothing outside is near that may push it but contacts and joints.
+bool may_be_free(const RigidScene& scene, const FigureRange& figure) {
+    return figure.count(Part::joint) != 0 && !figure.is_loaded && figure.count(Part::attachment) == 0 &&
+           !is_near_particles(scene, figure);
+}
+
+// Turns without any resistance.
+bool only_pulls(const Joint& joint) {
+    const JointConstants& c = joint.constants;
+    return joint.description.kind == LKS_JOINT_BALL && joint.in_tree && !c.swing_limited &&
+           !c.twist_limited && c.grip == 0 && c.drag_softness == 0;
+}
+
+// Of a figure that is held: by one joint alone, at something that stands.
+bool find_pivot(const RigidScene& scene, const FigureRange& figure, Vec3& pivot) {
+    int holders = 0;
+    bool found = false;
+    for_each_part(scene, figure, Part::joint, [&](std::uint32_t i) {
+        const Joint& joint = scene.joints[i];
+        const Body& a = scene.bodies[joint.description.body_a];
+        const Body& b = scene.bodies[joint.description.body_b];
+        if (a.is_awake() && b.is_awake()) {
+            return;
+        }
+        ++holders;
+        const Body& holder = a.is_awake() ? b : a;
+        const Vec3& point = a.is_awake() ? joint.description.point_b : joint.description.point_a;
+        found = only_pulls(joint) && !holder.is_dynamic() && !holder.is_moving();
+        pivot = holder.position + fixed::rotate(holder.rotation, point);
+    });
+    return holders == 1 && found;
+}
+
+// Neither motors nor springs are at work.
+bool is_passive(const RigidScene& scene, const FigureRange& figure) {
+    bool passive = true;
+    for_each_part(scene, figure, Part::joint, [&](std::uint32_t i) {
+        const Joint& joint = scene.joints[i];
+        passive = passive && joint.description.motor_torque == 0 && !has_spring(joint.constants) &&
+                  joint.constants.limits.softness == 0;
+    });
+    return passive;
+}
+
+bool has_uneven_tree(const RigidScene& scene, const FigureRange& figure) {
+    bool uneven = false;
+    for_each_part(scene, figure, Part::tree,
+                  [&](std::uint32_t i) { uneven = uneven || scene.trees[i].is_uneven; });
+    return uneven;
+}
+
+bool falls_unevenly(const RigidScene& scene, const FigureRange& figure) {
+    const std::int64_t factor = scene.descriptions[name_of(scene, figure)].gravity_factor;
+    bool uneven = false;
+    for_each_part(scene, figure, Part::body, [&](std::uint32_t i) {
+        uneven = uneven || scene.descriptions[i].gravity_factor != factor;
+    });
+    return uneven;
+}
+
+void begin_tick(const RigidScene& scene, FigureRange& figure) {
+    FreeMotion& motion = figure.motion;
+    motion = {};
+    if (!may_be_free(scene, figure)) {
+        return;
+    }
+    const bool uneven = has_uneven_tree(scene, figure);
+    motion.has_pivot = figure.is_held && !uneven && find_pivot(scene, figure, motion.pivot);
+    motion.free = motion.has_pivot || !figure.is_held;
+    motion.passive = motion.free && !motion.has_pivot && is_passive(scene, figure);
+    motion.gravity_works = motion.passive && falls_unevenly(scene, figure);
+    motion.each_substep = uneven || (figure.has_held_tree && !figure.is_held);
+}
+
+class FreeFigure {
+public:
+    FreeFigure(RigidScene& scene, const FigureRange& figure, const MotionRate& rate)
+        : scene_(scene), figure_(figure), rate_(rate) {}
+
+    void keep_momentum() {
+        const FigureMomentum now(scene_, figure_);
+        const Vec3 spin = now.inertia().spin_of(figure_.motion.lost);
+        if (spin == Vec3{0, 0, 0}) {
+            return;
+        }
+        const Speeds turning{{0, 0, 0}, spin};
+        for_each_body([&](Body& body) {
+            set_speeds(body, body.velocity + velocity_at(turning, lever_of(now, body)),
+                       body.angular_velocity + spin);
+        });
+        if (figure_.motion.passive) {
+            take_out_gain(figure_.motion.energy);
+        }
+    }
+
+private:
+    template <typename Use>
+    void for_each_body(const Use& use) {
+        for_each_part(scene_, figure_, Part::body, [&](std::uint32_t i) { use(scene_.bodies[i]); });
+    }
+
+    Vec3 lever_of(const FigureMomentum& momentum, const Body& body) const {
+        return saturating_subtract(body.position, momentum.position());
+    }
+
+    void take_out_gain(const Int128& most) {
+        const FigureMomentum now(scene_, figure_);
+        const Int128 energy = now.energy();
+        const Int128 allowed = std::max(most, Int128{0, 0});
+        if (energy <= allowed) {
+            return;
+        }
+        // A little is the rounding of turns, and not of what moves within.
+        Speeds whole{now.velocity(), {0, 0, 0}};
+        std::int64_t beside = one_factor;
+        std::int64_t together = one_factor;
+        if (energy - allowed <= allowed >> 8) {
+            together = energy_factor(allowed, energy);
+        } else {
+            whole.spin = now.inertia().spin_of(now.momentum());
+            const Int128 least = now.energy_of(whole.spin);
+            beside = allowed > least ? energy_factor(allowed - least, energy - least) : 0;
+            together = allowed < least ? energy_factor(allowed, least) : one_factor;
+        }
+        for_each_body([&](Body& body) {
+            const Vec3 turning = velocity_at({{0, 0, 0}, whole.spin}, lever_of(now, body));
+            const Vec3 own = body.velocity - whole.velocity - turning;
+            set_speeds(body, whole.velocity + times(turning + times(own, beside), together),
+                       times(whole.spin + times(body.angular_velocity - whole.spin, beside), together));
+        });
+    }
+
+    void set_speeds(Body& body, const Vec3& velocity, const Vec3& spin) {
+        body.velocity = velocity;
+        body.angular_velocity = spin;
+        clamp_vector(body.velocity, rate_.speed_limit);
+        clamp_vector(body.angular_velocity, rate_.spin_limit);
+    }
+
+    RigidScene& scene_;
+    const FigureRange& figure_;
+    const MotionRate& rate_;
+};
+
+} // namespace
+
+void FreeFigures::begin_substep(FigureRange& figure, std::uint32_t substep) const {
+    FreeMotion& motion = figure.motion;
+    if (substep == 1) {
+        begin_tick(scene_, figure);
+    }
+    if (motion.passive && (substep == 1 || motion.each_substep)) {
+        motion.energy = FigureMomentum(scene_, figure).energy();
+    }
+}
+
+void FreeFigures::finish_substep(FigureRange& figure, std::uint32_t substep) const {
+    FreeMotion& motion = figure.motion;
+    if (!motion.free) {
+        return;
+    }
+    if (is_pushed_from_outside(scene_, figure)) {
+        motion.free = motion.each_substep;
+        motion.lost = {};
+        return;
+    }
+    motion.lost = motion.lost + lost_momentum(scene_, figure, rate_);
+    if (motion.gravity_works) {
+        motion.energy = motion.energy + work_of_gravity(scene_, figure, rate_);
+    }
+    if (motion.each_substep || substep == substeps_) {
+        FreeFigure(scene_, figure, rate_).keep_momentum();
+        motion.lost = {};
+    }
+}
+
+} // namespace lks
