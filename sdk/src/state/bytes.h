@@ -32,49 +32,6 @@ inline std::int64_t read_i64(const unsigned char* at) {
     return static_cast<std::int64_t>(read_integer<std::uint64_t>(at));
 }
 
-// Writes into memory that was measured before: it cannot run out.
-class ByteWriter {
-public:
-    explicit ByteWriter(unsigned char* at) : at_(at) {}
-
-    void u32(std::uint32_t value) { integer(value); }
-    void u64(std::uint64_t value) { integer(value); }
-    void i64(std::int64_t value) { integer(static_cast<std::uint64_t>(value)); }
-
-    void i64_array(const std::int64_t* values, std::size_t count) {
-        if constexpr (host_is_little_endian) {
-            block(values, count * sizeof(std::int64_t));
-        } else {
-            for (std::size_t i = 0; i < count; ++i) {
-                i64(values[i]);
-            }
-        }
-    }
-
-    // As they are.
-    void block(const void* bytes, std::size_t size) {
-        if (size != 0) {
-            std::memcpy(at_, bytes, size);
-            at_ += size;
-        }
-    }
-
-private:
-    template <typename T>
-    void integer(T value) {
-        if constexpr (host_is_little_endian) {
-            std::memcpy(at_, &value, sizeof(T));
-        } else {
-            for (std::size_t i = 0; i < sizeof(T); ++i) {
-                at_[i] = static_cast<unsigned char>(value >> (8 * i));
-            }
-        }
-        at_ += sizeof(T);
-    }
-
-    unsigned char* at_;
-};
-
 // Reads what may be truncated: past the end everything is zero and `complete` is false.
 class ByteReader {
 public:

@@ -1,8 +1,7 @@
 // Fields to bytes, from bytes, and into a hash, in the order in which a function names them once.
 #pragma once
 
-#include "state/bytes.h"
-#include "state/hash.h"
+#include "state/byte_writer.h"
 
 namespace lks {
 

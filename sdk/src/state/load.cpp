@@ -370,9 +370,13 @@ private:
         object.linear_damping = image.linear_damping;
         object.origin = image.origin;
         object.replace_pins(world_.rate, image.pin_count, [&in] { return read_pin(in); });
-        for (int i = 0; i < axis_count; ++i) {
-            in.i64_array(object.axis(i), object.count());
+        // The last one first: the checksum has just read it.
+        for (int i = axis_count; i-- > 0;) {
+            ByteReader axis = in;
+            static_cast<void>(axis.skip_i64(static_cast<std::size_t>(i) * object.count()));
+            axis.i64_array(object.axis(i), object.count());
         }
+        static_cast<void>(in.skip_i64(std::size_t{axis_count} * object.count()));
         if (object.record_forces) {
             in.i64_array(object.multipliers.data(), object.multipliers.size());
             object.recorded_pins.clear();

@@ -11,8 +11,7 @@
 #pragma once
 
 #include "solver/world.h"
-#include "state/bytes.h"
-#include "state/hash.h"
+#include "state/byte_writer.h"
 
 namespace lks {
 

@@ -1,6 +1,5 @@
 #include "state/attachment_image.h"
-#include "state/bytes.h"
-#include "state/hash.h"
+#include "state/byte_writer.h"
 #include "state/image.h"
 #include "state/rigid_image.h"
 
@@ -83,7 +82,8 @@ std::size_t image_size(const lks_world& world) {
 
 void write_image(const lks_world& world, unsigned char* memory) {
     const std::size_t size = image_size(world);
-    ByteWriter out(memory + image_checked_from);
+    Hash checksum(*world.kernels);
+    ByteWriter out(memory + image_checked_from, checksum);
     out.u32(world.rate.ticks_per_second);
     out.u32(world.rate.substeps);
     out.u32(world.rate.iterations);
@@ -113,8 +113,7 @@ void write_image(const lks_world& world, unsigned char* memory) {
     }
     write_rigid(out, world.rigid);
     write_attachments(out, world.rigid);
-    Hash checksum(*world.kernels);
-    checksum.add_bytes(memory + image_checked_from, size - image_checked_from);
+    out.finish();
     ByteWriter front(memory);
     front.u64(image_magic);
     front.u32(image_version);
