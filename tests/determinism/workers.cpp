@@ -21,7 +21,7 @@ struct Crowd {
 
     static Asset make_sheet() {
         Net shape;
-        shape.side = 148; // large with every instruction set
+        shape.side = 180; // large with every instruction set
         shape.width = 6;
         shape.shear = soft(1e-6, 2);
         return shape.build();

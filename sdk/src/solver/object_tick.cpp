@@ -423,13 +423,21 @@ private:
         keep(corner.z);
     }
 
+    // As many for each worker: for one that is left over the others would wait. What is a little too small
+    // for one more counts as one: a grid's batches have a power of two, or somewhat less.
+    std::uint32_t wanted_blocks(std::uint32_t count, std::uint32_t grain) const {
+        const std::uint32_t workers = world_.worker_count;
+        const std::uint32_t most = blocks_a_worker * workers;
+        const std::uint32_t wanted = (count + grain / 4) / grain;
+        return std::min(wanted < workers ? wanted : wanted < most ? workers : most, greatest_block_count);
+    }
+
     // Calls body(block, first, count) for parts of `count` elements of about `grain` each, one after the
     // other or at the same time, and returns how many parts. Parts begin at whole groups of the kernels and
     // at whole words of FarPushes.
     template <typename Body>
     std::uint32_t in_blocks(std::uint32_t count, std::uint32_t grain, const Body& body) {
-        const std::uint32_t wanted =
-            std::min({count / grain, blocks_a_worker * world_.worker_count, greatest_block_count});
+        const std::uint32_t wanted = wanted_blocks(count, grain);
         if (team_ == nullptr || wanted < 2) {
             body(0, 0, count);
             return 1;
