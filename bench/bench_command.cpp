@@ -22,6 +22,7 @@ struct Section {
 };
 
 constexpr Section sections[] = {
+    {ratios_name, "soft, damped, 256² and ropes beside a 64² cloth, all in turns"},
     {snapshots_name, "save, load and hash of a 256² cloth beside memcpy"},
     {overhead_name, "a tick with next to nothing to do"},
     {sleep_name, "humanoids that lie on the ground, asleep and awake"},
@@ -86,6 +87,9 @@ void print(const Results& results, std::size_t from) {
         if (r.best != 0) {
             std::printf("  best %.4g", r.best);
         }
+        if (r.low != 0) {
+            std::printf("  half of the rounds: %.3f to %.3f", r.low, r.high);
+        }
         std::printf("\n");
     }
     std::fflush(stdout);
@@ -95,7 +99,9 @@ void print(const Results& results, std::size_t from) {
 bool measure(const std::string& part, const BenchOptions& options, Results& results, std::string& error) {
     constexpr int usual = 21;
     const int rounds = options.rounds != 0 ? static_cast<int>(options.rounds) : usual;
-    if (part == snapshots_name) {
+    if (part == ratios_name) {
+        measure_ratios(rounds, results);
+    } else if (part == snapshots_name) {
         measure_snapshots(rounds, results);
     } else if (part == overhead_name) {
         measure_overhead(rounds, results);

@@ -6,9 +6,22 @@
 namespace lks_bench {
 namespace {
 
-double median(std::vector<double> values) {
+// So many quarters of the values are less.
+double quartile(std::vector<double> values, std::size_t quarters) {
     std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
+    return values[std::min(values.size() * quarters / 4, values.size() - 1)];
+}
+
+double median(const std::vector<double>& values) {
+    return quartile(values, 2);
+}
+
+std::vector<double> ratios_of(const std::vector<double>& ones, const std::vector<double>& others) {
+    std::vector<double> ratios;
+    for (std::size_t round = 0; round < ones.size(); ++round) {
+        ratios.push_back(ones[round] / others[round]);
+    }
+    return ratios;
 }
 
 } // namespace
@@ -28,15 +41,16 @@ std::vector<Measurement> measure_in_turns(const std::vector<Contender>& contende
     }
     std::vector<Measurement> results;
     for (std::size_t i = 0; i < count; ++i) {
-        std::vector<double> ratios;
-        for (int round = 0; round < rounds; ++round) {
-            ratios.push_back(times[i][static_cast<std::size_t>(round)] /
-                             times[0][static_cast<std::size_t>(round)]);
-        }
         results.push_back({contenders[i].name, median(times[i]),
-                           *std::min_element(times[i].begin(), times[i].end()), median(ratios)});
+                           *std::min_element(times[i].begin(), times[i].end()),
+                           median(ratios_of(times[i], times[0])), times[i]});
     }
     return results;
+}
+
+Ratio ratio_of(const Measurement& one, const Measurement& other) {
+    const std::vector<double> ratios = ratios_of(one.times, other.times);
+    return {quartile(ratios, 1), median(ratios), quartile(ratios, 3)};
 }
 
 } // namespace lks_bench

@@ -71,6 +71,9 @@ std::string table(const Results& results, const std::string& title, Label row_of
             for (const Result& r : results) {
                 if (wanted(r) && row_of(r) == row && column_of(r) == column) {
                     cell = digits(r.value);
+                    if (r.low != 0) {
+                        cell += " (" + digits(r.low) + " to " + digits(r.high) + ")";
+                    }
                 }
             }
             text += " | " + cell;
@@ -100,22 +103,25 @@ std::string workload_list(const Results& results) {
     return text == head ? std::string() : text;
 }
 
-// Each variant against the best of ours.
-std::string ratios(const Results& results) {
+bool is_peer(const Result& r) {
+    return r.variant.rfind("float32", 0) == 0 || r.variant.rfind("Bullet", 0) == 0;
+}
+
+// Peers against each of ours, in what is measured of all of them in turns.
+std::string ratios(const Results& results, const std::string& measured, const std::string& title) {
     Results found;
     for (const Result& r : results) {
-        if (r.measured != "projection" || r.variant.rfind("float32", 0) == 0 ||
-            r.variant.rfind("Bullet", 0) == 0) {
+        if (r.measured != measured || r.ratio == 0 || is_peer(r)) {
             continue;
         }
         for (const Result& peer : results) {
-            if (peer.measured == "projection" && peer.workload == r.workload &&
-                (peer.variant.rfind("float32", 0) == 0 || peer.variant.rfind("Bullet", 0) == 0)) {
+            if (peer.measured == measured && peer.ratio != 0 && peer.workload == r.workload &&
+                is_peer(peer)) {
                 found.push_back({r.workload + ", " + r.variant, "", peer.variant, peer.ratio / r.ratio, ""});
             }
         }
     }
-    return table(found, "Peers' time / ours (above 1: ours is faster)", by_workload, by_variant,
+    return table(found, title + ": peers' time / ours (above 1: ours is faster)", by_workload, by_variant,
                  [](const Result&) { return true; });
 }
 
@@ -127,9 +133,13 @@ std::string markdown(const Results& results, const std::vector<Plot>& plots) {
     text += workload_list(results);
     text += table(results, "Nanoseconds a constraint projection", by_workload, by_variant,
                   [](const Result& r) { return r.measured == "projection"; });
-    text += ratios(results);
+    text += ratios(results, "projection", "Projections");
+    text += table(results,
+                  "How many times as long a projection takes, within rounds (half of the rounds: from, to)",
+                  by_variant, by_measured, [](const Result& r) { return r.workload == "ratios"; });
     text += table(results, "Nanoseconds a projection, whole tick", by_workload, by_variant,
                   [](const Result& r) { return r.measured == "tick" && r.unit == "ns a projection"; });
+    text += ratios(results, "tick", "Whole ticks");
     text += table(results, "Threads, whole ticks, ns a projection", by_workload, by_variant,
                   [](const Result& r) { return r.measured == "threads"; });
     text += table(results, "Milliseconds a tick", by_workload, by_variant,

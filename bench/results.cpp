@@ -36,6 +36,9 @@ std::string to_json(const Results& results) {
         if (r.best != 0) {
             text += R"(, "best": )" + number(r.best);
         }
+        if (r.low != 0) {
+            text += R"(, "low": )" + number(r.low) + R"(, "high": )" + number(r.high);
+        }
         text += "}";
         separator = ",\n";
     }
@@ -43,11 +46,12 @@ std::string to_json(const Results& results) {
 }
 
 std::string to_csv(const Results& results) {
-    std::string text = "workload,measured,variant,value,unit,ratio,best\n";
+    std::string text = "workload,measured,variant,value,unit,ratio,best,low,high\n";
     const auto unless_zero = [](double value) { return value != 0 ? number(value) : std::string(); };
     for (const Result& r : results) {
         text += "\"" + r.workload + "\",\"" + r.measured + "\",\"" + r.variant + "\"," + number(r.value) +
-                ",\"" + r.unit + "\"," + unless_zero(r.ratio) + "," + unless_zero(r.best) + "\n";
+                ",\"" + r.unit + "\"," + unless_zero(r.ratio) + "," + unless_zero(r.best) + "," +
+                unless_zero(r.low) + "," + unless_zero(r.high) + "\n";
     }
     return text;
 }

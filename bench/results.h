@@ -13,7 +13,11 @@ struct Result {
     double value;
     std::string unit;
     double ratio = 0; // to the first variant, median of the ratios within rounds; 0: none
-    double best = 0; // of the rounds, the value being their median: the least time, the highest rate; 0: none
+    // Of the rounds, the value being their median: the least time, the highest rate, the ratio of the least
+    // times; 0: none.
+    double best = 0;
+    double low = 0; // where the value is a median of ratios within rounds, their quartiles; 0: none
+    double high = 0;
 };
 
 using Results = std::vector<Result>;

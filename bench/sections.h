@@ -6,6 +6,7 @@
 
 namespace lks_bench {
 
+inline constexpr const char* ratios_name = "ratios";
 inline constexpr const char* snapshots_name = "snapshots";
 inline constexpr const char* overhead_name = "overhead";
 inline constexpr const char* sleep_name = "sleep";
@@ -22,6 +23,9 @@ inline constexpr const char* accuracy_name = "accuracy";
 // bytes a particle and a constraint; the share of constraints in runs.
 // `thrifty`: fewer rounds where each is long.
 void measure_workload(const Workload& workload, int rounds, bool thrifty, Results& results);
+// How many times as long a projection takes when it is soft or damped, in a large cloth, in ropes: these take
+// turns within rounds, an instruction set of ours after the other.
+void measure_ratios(int rounds, Results& results);
 // Save, load and hash of a 256² cloth beside memcpy, GB/s.
 void measure_snapshots(int rounds, Results& results);
 // A tick in which there is next to nothing to do: of an empty world, and what one more object costs.

@@ -67,6 +67,11 @@ for variant, most in deepest.items():
         sys.exit(f"{variant} lies on spheres with {points} points, the deepest of them {depth} mm below.")
 for variant in "scalar", "scalar, 2 workers":
     value(over, "threads", variant)
+ratios = measure("ratios")
+for measured in "soft / stiff", "damped / stiff", "damped / soft", "256² / 64²", "ropes / cloth":
+    found = result(ratios, measured, "scalar")
+    if not 0 < found["low"] == found["value"] == found["high"]:
+        sys.exit(f"Of one round the quartiles are not the median: {found}")
 for measured in "save", "load", "hash", "memcpy":
     value(measure("snapshots"), measured, "scalar")
 cloth = measure("cloth_50")
@@ -138,7 +143,7 @@ with tempfile.TemporaryDirectory() as folder:
         sys.exit("The report doesn't say of what solver it is, and when it was made.")
     json.loads(pathlib.Path(folder, "results.json").read_text())
     table = pathlib.Path(folder, "results.csv").read_text().splitlines()
-    if table[0] != "workload,measured,variant,value,unit,ratio,best":
+    if table[0] != "workload,measured,variant,value,unit,ratio,best,low,high":
         sys.exit(f"The columns of results.csv are {table[0]}.")
 
 if len(sys.argv) > 2:
