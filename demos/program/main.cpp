@@ -11,6 +11,7 @@
 #endif
 
 #include "program/commands.h"
+#include "program/machine_options.h"
 #include "program/messages.h"
 #include "scenes/nearest_name.h"
 
@@ -54,6 +55,7 @@ public:
     }
 
     int run(int argc, char** argv) {
+        warn_of_environment();
         bench_options_.program = argv[0];
         try {
             app_.parse(argc, argv);
@@ -220,9 +222,11 @@ private:
             command = *candidate ? candidate : command;
         }
         if (argc > 1 && command == &app_ && argv[1][0] != '-') {
-            return "There is no command '" + std::string(argv[1]) + "'; did you mean '" +
-                   lks_demo::nearest_name(argv[1], commands) + "'?";
+            return "There is no command '" + std::string(argv[1]) + "'" +
+                   lks_demo::did_you_mean(argv[1], commands) + " `lockstitch --help` shows all.";
         }
+        const std::string help =
+            "`lockstitch " + (command == &app_ ? std::string() : command->get_name() + " ") + "--help`";
         std::vector<std::string> options;
         for (const CLI::Option* option : command->get_options()) {
             for (const std::string& name : option->get_lnames()) {
@@ -233,12 +237,11 @@ private:
             const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
             if (word.rfind("--", 0) == 0 &&
                 std::find(options.begin(), options.end(), word) == options.end()) {
-                return "There is no option '" + word + "'; did you mean '" +
-                       lks_demo::nearest_name(word, options) + "'?";
+                return "There is no option '" + word + "'" + lks_demo::did_you_mean(word, options) + " " +
+                       help + " shows all.";
             }
         }
-        return std::string(error.what()) + "; `lockstitch " +
-               (command == &app_ ? std::string() : command->get_name() + " ") + "--help` shows how.";
+        return std::string(error.what()) + "; " + help + " shows how.";
     }
 
     CLI::App app_;

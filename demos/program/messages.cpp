@@ -17,8 +17,8 @@ bool resolve_scenes(const std::vector<std::string>& wanted, std::vector<std::str
     const std::vector<std::string>& known = lks_demo::scene_names();
     for (const std::string& name : wanted) {
         if (std::find(known.begin(), known.end(), name) == known.end()) {
-            complain("There is no scene '" + name + "'; did you mean '" +
-                         lks_demo::nearest_name(name, known) + "'? `lockstitch list` shows all.",
+            complain("There is no scene '" + name + "'" + lks_demo::did_you_mean(name, known) +
+                         " `lockstitch list` shows all.",
                      exit_usage);
             return false;
         }

@@ -111,6 +111,7 @@ int run(const RunOptions& options) {
     if (scene == nullptr) {
         return complain(error, exit_failed);
     }
+    tell_instruction_set(scene->world());
     const std::uint32_t last = options.ticks != 0 ? options.ticks : scene->info().default_ticks;
     HashPrinter printer(options, last);
     printer.print(scene->world());

@@ -36,7 +36,14 @@ std::string nearest_name(const std::string& wanted, const std::vector<std::strin
         return edit_distance(wanted, a) < edit_distance(wanted, b);
     };
     const auto nearest = std::min_element(names.begin(), names.end(), nearer);
-    return nearest == names.end() ? std::string() : *nearest;
+    const bool near = nearest != names.end() &&
+                      2 * edit_distance(wanted, *nearest) <= std::max(wanted.size(), nearest->size());
+    return near ? *nearest : std::string();
+}
+
+std::string did_you_mean(const std::string& wanted, const std::vector<std::string>& names) {
+    const std::string nearest = nearest_name(wanted, names);
+    return nearest.empty() ? std::string(".") : "; did you mean '" + nearest + "'?";
 }
 
 } // namespace lks_demo

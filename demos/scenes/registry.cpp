@@ -93,7 +93,7 @@ std::unique_ptr<Scene> create_scene(const std::string& name, const SceneOptions&
                                     std::string& error) {
     const Entry* entry = find_entry(name);
     if (entry == nullptr) {
-        error = "There is no scene '" + name + "'; did you mean '" + nearest_name(name, scene_names()) + "'?";
+        error = "There is no scene '" + name + "'" + did_you_mean(name, scene_names());
         return nullptr;
     }
     std::unique_ptr<Scene> scene = entry->make(entry->info);
