@@ -17,7 +17,7 @@ to 20 minutes.
                  wine and node: 45 to 80 minutes
   --long         also the exhaustive sweeps, and with --portability g++ and clang at every -O, clang with
                  -ffast-math, g++ without SIMD, WebAssembly without SIMD, and as many samples of the wide
-                 kernels under node and wine as here
+                 kernels under node and wine as here (under qemu as many as here without --long)
   --help         this text
 
   ./test.sh -- -L determinism      only the tests with this label
