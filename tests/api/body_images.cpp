@@ -92,8 +92,8 @@ TEST_CASE("sticks that are thrown back faster than they may turn have images tha
             for (const lks_fixed axis : {spin.x, spin.y, spin.z}) {
                 fastest = std::max(fastest, axis < 0 ? -axis : axis);
             }
-            // Between the middle of a substep and its end a spin changes by a quarter at most.
-            REQUIRE(fastest <= lks_world_spin_limit(world) * 5 / 4);
+            // Where nothing touches it, it goes its own way within 7/4 of the limit.
+            REQUIRE(fastest <= lks_world_spin_limit(world) * 7 / 4);
         }
     }
     CHECK(fastest >= LKS_FIXED(60)); // the limit was reached

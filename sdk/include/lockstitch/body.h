@@ -85,7 +85,8 @@ LKS_API lks_result lks_body_transform(const lks_world* world, lks_body_id body, 
 /* Puts it there at once; its velocity stays. Who touched it or is jointed to it wakes, and whom a kinematic
  * one touches there. Cloth and ropes that are attached to it stay behind: lks_object_teleport. */
 LKS_API lks_result lks_body_set_transform(lks_world* world, lks_body_id body, lks_transform transform);
-/* m/s of the centre of mass, and rad/s, in world axes. Either may be null. */
+/* m/s of the centre of mass, and rad/s, in world axes. Either may be null. What tumbles freely may spin
+ * faster than the limit, up to 7/4 of it. */
 LKS_API lks_result lks_body_velocity(const lks_world* world, lks_body_id body, lks_vec3* velocity,
                                      lks_vec3* angular_velocity);
 /* Each axis within the speed limit and the spin limit. Wakes it. LKS_ERROR_UNSUPPORTED if it is kinematic. */

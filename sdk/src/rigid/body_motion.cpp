@@ -1,12 +1,11 @@
 #include "rigid/body_motion.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "collide/collider_motion.h"
 #include "collide/saturation.h"
 #include "fixed/formats.h"
-#include "rigid/pair.h"
+#include "rigid/free_spin.h"
 
 namespace lks {
 namespace {
@@ -16,11 +15,6 @@ using fixed::Vec3;
 // a / n to the nearest, ties away from zero.
 std::int64_t divide_rounded(std::int64_t a, std::int64_t n) {
     return (a >= 0 ? a + n / 2 : a - n / 2) / n;
-}
-
-Vec3 to_spin(const Vec3& half_turn, const MotionRate& rate) {
-    const auto part = [&](std::int64_t c) { return fixed::multiply_shift(c, rate.substeps_per_second, 19); };
-    return {part(half_turn.x), part(half_turn.y), part(half_turn.z)};
 }
 
 // What moves from a to b in a substep has it exactly.
@@ -36,56 +30,6 @@ std::int64_t keep(std::int64_t value, std::uint32_t kept) {
 
 Vec3 keep(const Vec3& value, std::uint32_t kept) {
     return kept == unit_one ? value : Vec3{keep(value.x, kept), keep(value.y, kept), keep(value.z, kept)};
-}
-
-// One factor in Turn format, the other and the result in any.
-Vec3 cross_turn(const Vec3& a, const Vec3& b) {
-    const auto m = multiply_turn;
-    return {m(a.y, b.z) - m(a.z, b.y), m(a.z, b.x) - m(a.x, b.z), m(a.x, b.y) - m(a.y, b.x)};
-}
-
-std::int64_t greatest(const Vec3& v) {
-    const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
-    return std::max({size(v.x), size(v.y), size(v.z)});
-}
-
-// A milliradian a second changes nothing in an hour.
-bool is_slow(const Vec3& spin) {
-    return greatest(spin) < std::int64_t{1} << (world_fraction_bits - 10);
-}
-
-// I⁻¹(IΩ × hΩ/2), in body axes. Zero where it would be more than a quarter of Ω: half a substep is then too
-// long to follow the motion, and would add energy. One of the two Ω has as many more bits as there is room
-// for: of a slender body about its axis, or a slow one, next to nothing would be left in 2^-40.
-Vec3 gyroscopic_change(const BodyDescription& body, const Vec3& spin, const MotionRate& rate) {
-    const int up = std::max(std::countl_zero(static_cast<std::uint64_t>(greatest(spin))) - 6, 0);
-    const std::int64_t lift = std::int64_t{1} << up;
-    const Vec3 lifted{spin.x * lift, spin.y * lift, spin.z * lift};
-    const Vec3 torque = cross_turn(multiply(body.properties.inertia, lifted), to_half_turn(spin, rate));
-    const Vec3 change = multiply(body.properties.inverse_inertia, torque);
-    const int shift = body.properties.inverse_shift - up;
-    if (shifted(greatest(change), shift) > greatest(spin) >> 2) {
-        return {0, 0, 0};
-    }
-    return {shifted(change.x, shift), shifted(change.y, shift), shifted(change.z, shift)};
-}
-
-// Ω_mid − Ω in world axes, by iterating on Ω_mid.
-Vec3 change_to_middle(const Body& body, const BodyDescription& description, const MotionRate& rate) {
-    constexpr int most_iterations = 10;
-    const Vec3 spin = fixed::rotate_transposed(body.rotation, body.angular_velocity);
-    // Nothing is left of it after an hour's substeps.
-    const std::int64_t enough = (greatest(spin) >> 36) + 2;
-    Vec3 change{0, 0, 0};
-    for (int i = 0; i < most_iterations; ++i) {
-        const Vec3 next = gyroscopic_change(description, spin + change, rate);
-        const bool settled = greatest(next - change) <= enough;
-        change = next;
-        if (settled) {
-            break;
-        }
-    }
-    return fixed::rotate(body.rotation, change);
 }
 
 } // namespace
@@ -108,6 +52,11 @@ std::int64_t body_spin_limit(const StepRate& rate) {
 Vec3 to_half_turn(const Vec3& spin, const MotionRate& rate) {
     const auto part = [&](std::int64_t c) { return fixed::multiply_shift(c, rate.half_turn_factor, 40); };
     return {part(spin.x), part(spin.y), part(spin.z)};
+}
+
+Vec3 to_spin(const Vec3& half_turn, const MotionRate& rate) {
+    const auto part = [&](std::int64_t c) { return fixed::multiply_shift(c, rate.substeps_per_second, 19); };
+    return {part(half_turn.x), part(half_turn.y), part(half_turn.z)};
 }
 
 std::int64_t spin_speed(const Vec3& spin, std::int64_t radius) {
@@ -135,10 +84,13 @@ void predict_body(Body& body, const BodyDescription& description, const BodyTick
     body.start_orientation = body.orientation;
     body.velocity = keep(body.velocity + tick.gravity_step, tick.linear_kept);
     body.angular_velocity = keep(body.angular_velocity, tick.angular_kept);
-    if (!description.properties.round && !is_slow(body.angular_velocity)) {
-        body.angular_velocity = body.angular_velocity + change_to_middle(body, description, rate);
+    if (spins_evenly(description, body.angular_velocity)) {
+        limit_speeds(body, rate, speed_clamps);
+    } else {
+        speed_clamps += clamp_vector(body.velocity, rate.speed_limit) ? 1u : 0u;
+        speed_clamps += limit_free_spin(body.angular_velocity, rate) ? 1u : 0u;
+        body.angular_velocity = middle_spin(body, description, rate);
     }
-    limit_speeds(body, rate, speed_clamps);
     const std::int64_t n = rate.substeps_per_second;
     body.position =
         body.position + Vec3{divide_rounded(body.velocity.x, n), divide_rounded(body.velocity.y, n),
@@ -206,25 +158,11 @@ void finish_body(Body& body, const BodyDescription& description, const MotionRat
         body.follow_orientation();
         body.angular_velocity = to_spin(half_turn_between(body.start_orientation, body.orientation), rate);
         speed_clamps += clamp_vector(body.angular_velocity, rate.spin_limit) ? 1u : 0u;
+        body.angular_velocity = moved_spin_at_end(body, description, rate);
+    } else {
+        body.angular_velocity = free_spin_at_end(body.angular_velocity, body.rotation, description, rate);
     }
-    if (!description.properties.round && !is_slow(body.angular_velocity)) {
-        // From the middle of the substep to its end. Of what is left 2^-33 is lost, more than all roundings
-        // could add.
-        const Vec3 spin = fixed::rotate_transposed(body.rotation, body.angular_velocity);
-        const Vec3 change = gyroscopic_change(description, spin, rate);
-        const Vec3& w = body.angular_velocity;
-        body.angular_velocity =
-            w + fixed::rotate(body.rotation, change) - Vec3{w.x >> 33, w.y >> 33, w.z >> 33};
-    }
-}
-
-Vec3 predicted_own_momentum(const Body& body, const BodyDescription& description, const MotionRate& rate) {
-    const fixed::Matrix3 rotation = fixed::to_matrix(narrow(body.predicted_orientation));
-    const Vec3 spin = fixed::rotate_transposed(rotation, body.predicted_spin);
-    const Vec3 middle = multiply(description.properties.inertia, spin);
-    const bool constant = description.properties.round || is_slow(body.predicted_spin);
-    const Vec3 end = constant ? middle : middle + cross_turn(middle, to_half_turn(spin, rate));
-    return fixed::rotate(rotation, end);
+    speed_clamps += limit_free_spin(body.angular_velocity, rate) ? 1u : 0u;
 }
 
 } // namespace lks

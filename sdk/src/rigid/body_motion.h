@@ -1,8 +1,7 @@
 // How a body moves by itself: the prediction at the start of a substep, and the velocities at its end.
 //
 // Where no constraint has moved a body its velocities are what they were predicted to be, to the bit. Its
-// spin follows the implicit midpoint rule in body axes, Ω_mid = Ω + I⁻¹(IΩ_mid × hΩ_mid/2), and turns it by
-// Cayley's map of hΩ_mid, which keeps angular momentum and energy (Austin, Krishnaprasad, Wang 1993).
+// spin follows the implicit midpoint rule (rigid/free_spin.h).
 #pragma once
 
 #include <algorithm>
@@ -47,11 +46,6 @@ void place_kinematic(Body& body, std::uint32_t substep, std::uint32_t substeps, 
 void finish_body(Body& body, const BodyDescription& description, const MotionRate& rate,
                  std::uint64_t& speed_clamps);
 
-// I·ω at the end of a substep if nothing has moved the body from where it was predicted: in world axes, World,
-// of a kilogram in its unit of length. By the midpoint rule IΩ_mid + IΩ_mid × hΩ_mid/2.
-fixed::Vec3 predicted_own_momentum(const Body& body, const BodyDescription& description,
-                                   const MotionRate& rate);
-
 // Velocity and spin within their limits; what was not is counted.
 void limit_speeds(Body& body, const MotionRate& rate, std::uint64_t& speed_clamps);
 
@@ -63,8 +57,9 @@ inline std::int64_t greatest_speed(const Body& body, std::int64_t radius) {
     return greatest_speed(body.speeds(), radius);
 }
 
-// World rad/s to the half turn of a substep, Turn.
+// World rad/s to the half turn of a substep, Turn, and back.
 fixed::Vec3 to_half_turn(const fixed::Vec3& spin, const MotionRate& rate);
+fixed::Vec3 to_spin(const fixed::Vec3& half_turn, const MotionRate& rate);
 
 // Of a body's point at a lever from its centre of mass, World m/s; by the spin within a million m/s an axis.
 inline fixed::Vec3 velocity_at(const Speeds& speeds, const fixed::Vec3& lever) {

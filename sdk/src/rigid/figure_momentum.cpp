@@ -4,6 +4,7 @@
 
 #include "collide/saturation.h"
 #include "rigid/figures.h"
+#include "rigid/free_spin.h"
 
 namespace lks {
 namespace {

@@ -49,7 +49,7 @@ RigidChecks::RigidChecks(const lks_world& world) : world_(world) {
     body_ranges_.within(world_position_limit, 9)
         .within(turn_one + unit_room, 8)
         .within(body_speed_limit(world.rate), 3)
-        // Spins may go beyond the limit by what the middle of a substep differs from its end.
+        // Free spins go beyond the limit, within 7/4 of it.
         .within(2 * body_spin_limit(world.rate), 3)
         .within(turn_one + unit_room, 4)
         .between(INT64_MIN, INT64_MAX); // any rest; the others: sleeps_soundly
