@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 #include "support/refusals.h"
@@ -170,4 +171,47 @@ TEST_CASE("a vertex is rigidly held at one thing that can't move, not at two") {
     REQUIRE(lks_world_remove_attachment(world, id) == LKS_OK);
     CHECK(lks_object_pin(world, object, 19) == LKS_OK);
     world.step(30);
+}
+
+TEST_CASE("a vertex is rigidly held at one point of a body, not at two") {
+    for (const bool pinned : {false, true}) {
+        World world(world_def(60, 8));
+        const Asset rope = Chain().build();
+        const lks_object_id object = world.add(rope, at(0, 0, 0));
+        if (pinned) {
+            world.pin(object, 0);
+        }
+        lks_body_shape shape = box_shape(0.2, 0.2, 0.2);
+        shape.transform.position.x = fixed(0.5); // points are those of the frame, not of the middle
+        const lks_body_id body = add_body(world, shape, fixed(-0.3, 0, 0));
+        const lks_body_id second = add_body(world, shape, fixed(0.3, 0, 0));
+        const lks_attachment_def first = to_body(object, 0, body, fixed(0.2, 0.15, 0));
+        const lks_attachment_id id = attach(world, first);
+        lks_attachment_def other = to_body(object, 0, body, fixed(0.2, -0.15, 0));
+        const auto refused = [&](const char* value) {
+            lks_attachment_id none{};
+            check_call_refused(world, LKS_ERROR_INVALID_ARGUMENT, value,
+                               [&] { return lks_world_add_attachment(world, &other, &none); });
+        };
+        for (const char* value : {"index 0", "vertex 0", "(0.2, 0.15, 0)", "(0.2, -0.15, 0)"}) {
+            refused(value);
+        }
+        // What gives way contradicts nothing, nor does the same point, another vertex, or another body.
+        lks_attachment_def soft = other;
+        soft.compliance = fixed(0.001);
+        lks_attachment_def breakable = other;
+        breakable.break_force = fixed(100);
+        lks_attachment_def next = other;
+        next.vertex = 1;
+        lks_attachment_def elsewhere = other;
+        elsewhere.body = second;
+        for (const lks_attachment_def& def : {soft, breakable, next, elsewhere, first}) {
+            attach(world, def);
+        }
+        world.step(30);
+        REQUIRE(lks_world_remove_attachment(world, id) == LKS_OK);
+        refused("index 5"); // the same point's
+        const Image image = world.save();
+        CHECK(lks_world_load(world, image.data(), image.size()) == LKS_OK);
+    }
 }

@@ -12,6 +12,7 @@
 #include "rigid/body.h"
 #include "state/hash.h"
 #include "state/image.h"
+#include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
 #include "support/refusals.h"
@@ -277,6 +278,34 @@ TEST_CASE("an image whose kinematic body is farther from its target than a tick 
     put_u64(near, word, static_cast<std::uint64_t>(place.x - fixed(99)));
     put_right_checksum(near);
     REQUIRE(lks_world_load(world, near.data(), near.size()) == LKS_OK);
+    world.step(2);
+}
+
+TEST_CASE("an image whose attachments hold a vertex at two points of one body is refused and names one") {
+    World world(world_def(60, 2));
+    const Asset chain = Chain().build();
+    const lks_object_id object = world.add(chain, at(0, 0, 0));
+    const lks_body_id body = add_body(world, box_shape(0.2, 0.2, 0.2), fixed(1, 0, 0));
+    const lks_vec3 point = fixed(0.1, 0.15, 0.05);
+    attach(world, to_body(object, 7, body, point));
+    attach(world, to_body(object, 3, body, point));
+    attach(world, to_body(object, 5, body, fixed(0.1, 0, 0)));
+    attach(world, to_body(object, 3, body, point));
+    const Image good = world.save();
+    REQUIRE(lks_world_load(world, good.data(), good.size()) == LKS_OK);
+    std::vector<std::size_t> places;
+    for (std::size_t i = lks::image_checked_from; i + 8 <= good.size(); i += 4) {
+        if (get_u64(good, i) == static_cast<std::uint64_t>(point.y)) {
+            places.push_back(i);
+        }
+    }
+    REQUIRE(places.size() == 3);
+    Image bad = good;
+    put_u64(bad, places[1], static_cast<std::uint64_t>(point.y + 1));
+    put_right_checksum(bad);
+    check_call_refused(world, LKS_ERROR_CORRUPT_IMAGE, "attachment 3",
+                       [&] { return lks_world_load(world, bad.data(), bad.size()); });
+    REQUIRE(lks_world_load(world, good.data(), good.size()) == LKS_OK);
     world.step(2);
 }
 

@@ -59,8 +59,8 @@ LKS_API lks_attachment_def lks_default_attachment_def(void);
 /* Takes the lowest free index. Everything is left where it is: what is apart is pulled together from the next
  * tick on, a rigid one by two metres a second where the other side can move, and at once where it can't.
  * Pinned vertices and kinematic bodies pull, but are not pulled; where neither side can move (yet) it is
- * refused, and so is holding a vertex at two things that can't move, if neither attachment has a compliance
- * or a break force. */
+ * refused, and so is holding a vertex at two things that can't move, or at two points of one body, if neither
+ * attachment has a compliance or a break force. */
 LKS_API lks_result lks_world_add_attachment(lks_world* world, const lks_attachment_def* def,
                                             lks_attachment_id* attachment);
 /* Goes by itself with either side. */

@@ -31,9 +31,13 @@ AttachmentDescription describe(const lks_attachment_def& def, const lks_world& w
     return d;
 }
 
-// What it holds at something that can't move is not held so already.
+// What it holds at something that can't move is not held so already, nor at another point of its body.
 lks_result check_contradictions(const lks_world& world, const lks_attachment_def& def,
                                 const Attachment& made) {
+    if (const lks_result result = check_held_at_one_point(world, made.description, def.vertex);
+        result != LKS_OK) {
+        return result;
+    }
     if (made.constants.movable == 3 || !made.description.is_rigid()) {
         return LKS_OK;
     }

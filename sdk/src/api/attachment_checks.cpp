@@ -40,6 +40,13 @@ std::uint32_t sides_that_are(const AttachmentDescription& d, std::uint32_t objec
     return (near ? 1u : 0u) | (far ? 2u : 0u);
 }
 
+Sentence& write_point(Sentence& sentence, const fixed::Vec3& point) {
+    sentence << "(";
+    sentence.world_value(point.x) << ", ";
+    sentence.world_value(point.y) << ", ";
+    return sentence.world_value(point.z) << ") m";
+}
+
 } // namespace
 
 lks_result check_held_nowhere(const lks_world& world, lks_object_id object, std::uint32_t vertex,
@@ -58,6 +65,26 @@ lks_result check_held_nowhere(const lks_world& world, lks_object_id object, std:
                                   << "The attachment with index " << i << " holds vertex " << vertex
                                   << " of the object with index " << object.index
                                   << " at what can't move, without compliance or a break_force; " << refused);
+        }
+    }
+    return LKS_OK;
+}
+
+lks_result check_held_at_one_point(const lks_world& world, const AttachmentDescription& made,
+                                   std::uint32_t vertex) {
+    const RigidScene& scene = world.rigid;
+    for (std::uint32_t i = 0; i < scene.attachments.size(); ++i) {
+        const AttachmentDescription& d = scene.attachments[i].description;
+        if (scene.attachment_slots[i].used && d.contradicts(made)) {
+            const fixed::Vec3& centre = scene.descriptions[d.other].centre;
+            Sentence sentence;
+            sentence << "The attachment with index " << i << " holds vertex " << vertex
+                     << " of the object with index " << d.object << " at ";
+            write_point(sentence, d.point + centre)
+                << " of the body with index " << d.other << ", without compliance or a break_force; ";
+            return world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                              write_point(sentence << "it can't be held at ", made.point + centre)
+                                  << " of it, too.");
         }
     }
     return LKS_OK;

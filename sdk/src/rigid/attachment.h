@@ -26,6 +26,12 @@ struct AttachmentDescription {
 
     // It neither stretches nor breaks.
     bool is_rigid() const { return compliance == 0 && break_force == 0; }
+    // Both hold one particle at one body, at two points of it, and neither gives way.
+    bool contradicts(const AttachmentDescription& d) const {
+        return kind == LKS_ATTACHMENT_TO_BODY && d.kind == kind && d.object == object &&
+               d.particle == particle && d.other == other && is_rigid() && d.is_rigid() &&
+               !(d.point == point);
+    }
 };
 
 // What follows from the description and the masses.

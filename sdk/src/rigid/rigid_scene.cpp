@@ -33,7 +33,8 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       strained_figures(allocator), figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator),
       is_coupled(allocator), coupled(allocator), object_pairs(allocator), object_pushes(allocator),
       object_touches(allocator), held(allocator), rope_loads(allocator), particle_loads(allocator),
-      loaded_bodies(allocator), loaded_joints(allocator), tree_kernels_(tree_kernels) {}
+      loaded_bodies(allocator), loaded_joints(allocator), loaded_attachments(allocator),
+      tree_kernels_(tree_kernels) {}
 
 // A bundle takes the same for any number of trees.
 std::size_t RigidScene::wide_room(std::size_t count) const {
@@ -92,8 +93,9 @@ bool RigidScene::reserve_attachments(std::size_t count) {
     attachment_room_ = std::max(attachment_room_, count);
     // Particles tied to particles are stepped here, too, with no body in the world.
     const bool done = attachment_slots.reserve(count) && attachments.reserve(count) && held.reserve(count) &&
-                      rope_loads.reserve(count) && particle_loads.reserve(count) &&
-                      reserve_figures(body_room_, joint_room_, count) && reserve(body_room_, collider_room_);
+                      loaded_attachments.reserve(count) && rope_loads.reserve(count) &&
+                      particle_loads.reserve(count) && reserve_figures(body_room_, joint_room_, count) &&
+                      reserve(body_room_, collider_room_);
     attachment_room_ = done ? attachment_room_ : before;
     return done;
 }

@@ -148,6 +148,7 @@ struct RigidScene {
     // Scratch of a load, by slot.
     Array<Loaded> loaded_bodies;
     Array<Loaded> loaded_joints;
+    Array<AttachmentDescription> loaded_attachments; // rigid ones to bodies
 
     // Room for everything that a tick with so many slots may need. False: no memory.
     [[nodiscard]] bool reserve(std::size_t body_count, std::size_t collider_count);

@@ -1,5 +1,8 @@
 #include "state/attachment_image.h"
 
+#include <algorithm>
+#include <tuple>
+
 #include "api/attachment_checks.h"
 #include "rigid/coupling.h"
 #include "rigid/rope_loads.h"
@@ -34,6 +37,26 @@ bool is_valid(const lks_world& world, const Attachment& attachment) {
            check_attachment_ranges(world, d.compliance, d.damping, d.break_force) == LKS_OK;
 }
 
+// Of those that could contradict each other: together what one body holds of one particle, the same points in
+// a row. `reserved` has the index.
+bool is_before(const AttachmentDescription& a, const AttachmentDescription& b) {
+    const auto key = [](const AttachmentDescription& d) {
+        return std::tie(d.object, d.particle, d.other, d.point.x, d.point.y, d.point.z, d.reserved);
+    };
+    return key(a) < key(b);
+}
+
+bool find_contradiction(Array<AttachmentDescription>& rigid, std::uint32_t& index) {
+    std::sort(rigid.begin(), rigid.end(), is_before);
+    for (std::size_t i = 1; i < rigid.size(); ++i) {
+        if (rigid[i].contradicts(rigid[i - 1])) {
+            index = std::max(rigid[i].reserved, rigid[i - 1].reserved);
+            return true;
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 std::size_t attachments_image_size(const RigidScene& scene) {
@@ -56,8 +79,10 @@ void write_attachments(ByteWriter& out, const RigidScene& scene) {
     }
 }
 
-bool check_attachments(ByteReader& in, std::uint32_t count, const lks_world& world, std::uint32_t& index) {
+bool check_attachments(ByteReader& in, std::uint32_t count, lks_world& world, std::uint32_t& index) {
     Reading reading(in);
+    Array<AttachmentDescription>& rigid = world.rigid.loaded_attachments;
+    rigid.clear();
     for (index = 0; index < count && in.complete(); ++index) {
         const std::uint32_t generation = in.u32();
         const std::uint32_t used = in.u32();
@@ -68,8 +93,13 @@ bool check_attachments(ByteReader& in, std::uint32_t count, const lks_world& wor
         if (generation == 0 || used > 1 || (used == 1 && !is_valid(world, attachment))) {
             return false;
         }
+        AttachmentDescription& d = attachment.description;
+        if (used == 1 && d.kind == LKS_ATTACHMENT_TO_BODY && d.is_rigid()) {
+            d.reserved = index;
+            rigid.push_reserved(d);
+        }
     }
-    return in.complete();
+    return in.complete() && !find_contradiction(rigid, index);
 }
 
 bool reserve_for_attachments(ByteReader& in, std::uint32_t count, const lks_world& world) {

@@ -194,7 +194,8 @@ public:
         ByteReader attachments = in;
         if (!check_attachments(in, header_.attachment_slots, world_, index)) {
             return corrupt(world_, Sentence() << "A value of attachment " << index
-                                              << " in the image is out of range.");
+                                              << " in the image is out of range, or it holds a vertex that "
+                                                 "another one holds at another point of the same body.");
         }
         if (!in.complete() || in.left() != 0) {
             return wrong_size();
