@@ -96,6 +96,29 @@ TEST_CASE("world_edge_hits: an object that cannot follow its particles, once an 
     CHECK(world.counters().world_edge_hits == hits);
 }
 
+TEST_CASE("world_edge_hits: a body that goes no further, once an axis and tick") {
+    World world(weightless(10));
+    lks_body_def def = lks_default_body_def();
+    def.velocity = fixed(60, 0, 0);
+    const lks_body_id body = add_body(world, ball_shape(0.1), fixed(8387990.5, 0, 0), def);
+    def.velocity = fixed(0, -1000, 0);
+    const lks_body_id fast = add_body(world, ball_shape(0.1), fixed(0, -8387895, 8388000), def);
+    world.step(120);
+    // One is there after nine ticks, the other after six, and rests at another edge, which is none.
+    expect_count("world_edge_hits, bodies", 111 + 114, 111 + 114, world.counters().world_edge_hits);
+    CHECK(state_of(world, body).position.x == 8388000);
+    REQUIRE(lks_body_set_velocity(world, body, fixed(-1, 1, 0), {}) == LKS_OK);
+    REQUIRE(lks_body_set_velocity(world, fast, {}, {}) == LKS_OK);
+    const std::uint64_t hits = world.counters().world_edge_hits;
+    world.step(60);
+    CHECK(world.counters().world_edge_hits == hits);
+    CHECK(world.counters().speed_clamps == 0);
+    // Two axes at once.
+    REQUIRE(lks_body_set_velocity(world, fast, fixed(0, -1, 1), {}) == LKS_OK);
+    world.step(5);
+    CHECK(world.counters().world_edge_hits == hits + 10);
+}
+
 TEST_CASE("dropped_ticks: time beyond the cap of a call") {
     World world;
     std::uint32_t ran = 0;

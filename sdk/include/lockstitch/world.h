@@ -116,7 +116,8 @@ typedef struct lks_world_counters {
     uint64_t position_clamps; /* a particle's axis left its object's range of ±64 m */
     uint64_t speed_clamps;    /* a particle's axis, or a body, was faster than its limit */
     uint64_t target_clamps;   /* a pin's target lay outside its object's range */
-    uint64_t world_edge_hits; /* an object's origin could not follow it past ±8,388 km */
+    uint64_t world_edge_hits; /* an object's origin could not follow it, or a body's axis went no further, at
+                                 ±8,388 km */
     uint64_t dropped_ticks;   /* by LKS_EXCESS_TIME_DROP */
     uint64_t lost_contacts;   /* pairs, near or touching, beyond the room of a tick (lks_world_step) */
     uint64_t lost_events;     /* more than lks_world_record_events has room for */

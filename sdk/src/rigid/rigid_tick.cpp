@@ -151,11 +151,23 @@ private:
                 body.target_orientation = body.orientation;
             } else if (body.is_awake()) {
                 // What undid errors has left this behind.
+                world_.counters.world_edge_hits += axes_at_edge(body);
                 clamp_vector(body.position, world_position_limit);
                 body.follow_orientation();
             }
         }
         fall_asleep(world_);
+    }
+
+    // Axes on which it is beyond the edge of the world, or there and on its way out.
+    static std::uint32_t axes_at_edge(const Body& body) {
+        const auto is_at_edge = [](std::int64_t place, std::int64_t velocity) {
+            constexpr std::int64_t edge = world_position_limit;
+            const std::int64_t outwards = place < 0 ? -velocity : velocity;
+            return (outwards > 0 ? place >= edge || place <= -edge : place > edge || place < -edge) ? 1u : 0u;
+        };
+        return is_at_edge(body.position.x, body.velocity.x) + is_at_edge(body.position.y, body.velocity.y) +
+               is_at_edge(body.position.z, body.velocity.z);
     }
 
     void break_what_bears_too_much() {
