@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "support/bodies.h"
+#include "support/refusals.h"
 
 using namespace support;
 
@@ -252,4 +253,60 @@ TEST_CASE("poses and drives that are none are refused whole") {
     pose[14].position.x += fixed(200);
     CHECK(lks_ragdoll_move_to(world, puppet.bodies, count, pose.data()) == LKS_ERROR_INVALID_ARGUMENT);
     CHECK(world.hash() == still);
+}
+
+TEST_CASE("what is refused of a pose names the bone, and a body or a joint stands in it once") {
+    World world(world_def(60, 8));
+    Puppet puppet(world);
+    constexpr std::uint32_t count = LKS_HUMANOID_BONES;
+    std::vector<lks_transform> pose = puppet.pose();
+    std::vector<lks_transform> out(count);
+    const auto refused = [&](lks_result expected, const char* value, const auto& call) {
+        check_call_refused(world, expected, value, call);
+    };
+    const auto all_refuse = [&](lks_result expected, const char* value) {
+        refused(expected, value, [&] { return lks_ragdoll_pose(world, puppet.bodies, count, out.data()); });
+        refused(expected, value,
+                [&] { return lks_ragdoll_set_pose(world, puppet.bodies, count, pose.data(), nullptr); });
+        refused(expected, value,
+                [&] { return lks_ragdoll_move_to(world, puppet.bodies, count, pose.data()); });
+        refused(expected, value,
+                [&] { return lks_ragdoll_set_kind(world, puppet.bodies, count, LKS_BODY_KINEMATIC); });
+    };
+    const lks_body_id body = puppet.bodies[9];
+    puppet.bodies[9] = puppet.bodies[4];
+    all_refuse(LKS_ERROR_INVALID_ARGUMENT, "bone 9: the body with index 4 is that of bone 4 already");
+    puppet.bodies[9].generation = 7;
+    all_refuse(LKS_ERROR_STALE_ID, "bone 9: ");
+    puppet.bodies[9] = body;
+
+    pose[7].rotation = {0, 0, 0, 0};
+    const auto set = [&](const lks_transform* now, const lks_transform* before) {
+        return lks_ragdoll_set_pose(world, puppet.bodies, count, now, before);
+    };
+    const auto drive = [&] {
+        return lks_ragdoll_drive(world, &puppet.human.def, puppet.joints, pose.data(), fixed(1), 0);
+    };
+    const std::vector<lks_transform> good = puppet.pose();
+    refused(LKS_ERROR_INVALID_ARGUMENT, "bone 7: ", [&] { return set(pose.data(), good.data()); });
+    refused(LKS_ERROR_INVALID_ARGUMENT,
+            "bone 7, a tick before: ", [&] { return set(good.data(), pose.data()); });
+    refused(LKS_ERROR_INVALID_ARGUMENT, "bone 7: ", drive);
+    pose = good;
+    const lks_joint_id joint = puppet.joints[5];
+    puppet.joints[5] = puppet.joints[2];
+    refused(LKS_ERROR_INVALID_ARGUMENT, "bone 6: the joint with index 2 is that of bone 3 already", drive);
+    puppet.joints[5].generation = 9;
+    refused(LKS_ERROR_STALE_ID, "bone 6: ", drive);
+    puppet.joints[5] = joint;
+    CHECK(drive() == LKS_OK);
+    refused(LKS_ERROR_UNSUPPORTED,
+            "bone 0: ", [&] { return lks_ragdoll_move_to(world, puppet.bodies, count, pose.data()); });
+    REQUIRE(lks_ragdoll_set_kind(world, puppet.bodies, count, LKS_BODY_KINEMATIC) == LKS_OK);
+    pose[14].position.x += fixed(200);
+    refused(LKS_ERROR_INVALID_ARGUMENT,
+            "bone 14: ", [&] { return lks_ragdoll_move_to(world, puppet.bodies, count, pose.data()); });
+    // A failure of another call names no bone.
+    REQUIRE(lks_body_set_velocity(world, puppet.bodies[0], {}, {}) == LKS_ERROR_UNSUPPORTED);
+    CHECK_FALSE(names(world.message(), "bone"));
 }

@@ -69,8 +69,8 @@ LKS_API lks_ragdoll_def lks_default_ragdoll_def(void);
 LKS_API lks_result lks_world_add_ragdoll(lks_world* world, const lks_ragdoll_def* def, lks_body_id* bodies,
                                          lks_joint_id* joints);
 
-/* Poses: where bones are in the world, an array of `count` transforms in the order of `bodies`. Each call
- * does all of it or nothing. */
+/* Poses: where bones are in the world, an array of `count` transforms in the order of `bodies`, none of which
+ * is there twice. Each call does all of it or nothing; what it refuses names the bone. */
 
 /* For skinning. */
 LKS_API lks_result lks_ragdoll_pose(const lks_world* world, const lks_body_id* bodies, uint32_t count,

@@ -16,6 +16,29 @@ using namespace lks;
 
 namespace {
 
+// One bone after the other, until one is refused: check(i), whose sentence names the bone.
+template <typename Check>
+lks_result check_bones(const lks_world& world, std::uint32_t count, const char* when, const Check& check) {
+    lks_result result = LKS_OK;
+    for (std::uint32_t i = 0; result == LKS_OK && i < count; ++i) {
+        const WithinBone within_bone(world, i, when);
+        result = check(i);
+    }
+    return result;
+}
+
+// Ids that are good; each once.
+lks_result check_given_once(const lks_world& world, const lks_body_id* bodies, std::uint32_t index) {
+    for (std::uint32_t i = 0; i < index; ++i) {
+        if (bodies[i].index == bodies[index].index) {
+            return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence()
+                                                              << "The body with index " << bodies[i].index
+                                                              << " is that of bone " << i << " already.");
+        }
+    }
+    return LKS_OK;
+}
+
 lks_result require_bodies(const lks_world* world, const lks_body_id* bodies, std::uint32_t count,
                           const void* pose, const char* function) {
     if (world == nullptr) {
@@ -25,21 +48,16 @@ lks_result require_bodies(const lks_world* world, const lks_body_id* bodies, std
         return world->fail(LKS_ERROR_NULL_ARGUMENT,
                            null_argument(function, bodies == nullptr ? "bodies" : "pose"));
     }
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (const lks_result result = require_body(world, bodies[i]); result != LKS_OK) {
-            return result;
-        }
-    }
-    return LKS_OK;
+    return check_bones(*world, count, "", [&](std::uint32_t i) {
+        const lks_result result = require_body(world, bodies[i]);
+        return result == LKS_OK ? check_given_once(*world, bodies, i) : result;
+    });
 }
 
-lks_result check_pose(const lks_world& world, const lks_transform* pose, std::uint32_t count) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (const lks_result result = check_body_transform(world, pose[i]); result != LKS_OK) {
-            return result;
-        }
-    }
-    return LKS_OK;
+lks_result check_pose(const lks_world& world, const lks_transform* pose, std::uint32_t count,
+                      const char* when = "") {
+    return check_bones(world, count, when,
+                       [&](std::uint32_t i) { return check_body_transform(world, pose[i]); });
 }
 
 // tan(angle)/angle (World; up to 63°, to 10^-7 of it), by the continued fraction of the tangent.
@@ -104,6 +122,22 @@ bool is_there(lks_joint_id joint) {
     return joint.generation != 0;
 }
 
+// Of bone i, which is not the root.
+lks_result check_joint_of(const lks_world& world, const lks_joint_id* joints, std::uint32_t bone) {
+    const lks_joint_id joint = joints[bone - 1];
+    if (const lks_result result = require_joint(&world, joint); result != LKS_OK) {
+        return result;
+    }
+    for (std::uint32_t i = 1; i < bone; ++i) {
+        if (is_there(joints[i - 1]) && joints[i - 1].index == joint.index) {
+            return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence()
+                                                              << "The joint with index " << joint.index
+                                                              << " is that of bone " << i << " already.");
+        }
+    }
+    return LKS_OK;
+}
+
 lks_result check_drive(const lks_world& world, const lks_ragdoll_def& def, const lks_joint_id* joints,
                        const lks_transform* pose, lks_fixed strength, lks_fixed response) {
     const Number numbers[] = {{"drive's strength", "", strength, 0, LKS_FIXED(100)},
@@ -114,12 +148,11 @@ lks_result check_drive(const lks_world& world, const lks_ragdoll_def& def, const
     if (const lks_result result = check_bone_tree(world, def); result != LKS_OK) {
         return result;
     }
-    for (std::uint32_t i = 1; i < def.bone_count; ++i) {
-        const lks_joint_id joint = joints[i - 1];
-        if (const lks_result result = is_there(joint) ? require_joint(&world, joint) : LKS_OK;
-            result != LKS_OK) {
-            return result;
-        }
+    const lks_result result = check_bones(world, def.bone_count, "", [&](std::uint32_t i) {
+        return i == 0 || !is_there(joints[i - 1]) ? LKS_OK : check_joint_of(world, joints, i);
+    });
+    if (result != LKS_OK) {
+        return result;
     }
     return check_pose(world, pose, def.bone_count);
 }
@@ -141,7 +174,8 @@ lks_result lks_ragdoll_set_pose(lks_world* world, const lks_body_id* bodies, uin
                                 const lks_transform* pose, const lks_transform* before) {
     lks_result result = require_bodies(world, bodies, count, pose, "lks_ragdoll_set_pose");
     result = result == LKS_OK ? check_pose(*world, pose, count) : result;
-    result = result == LKS_OK && before != nullptr ? check_pose(*world, before, count) : result;
+    result =
+        result == LKS_OK && before != nullptr ? check_pose(*world, before, count, ", a tick before") : result;
     for (std::uint32_t i = 0; result == LKS_OK && i < count; ++i) {
         lks_body_set_transform(world, bodies[i], pose[i]);
         Body& body = world->rigid.bodies[bodies[i].index];
@@ -170,6 +204,7 @@ lks_result lks_ragdoll_move_to(lks_world* world, const lks_body_id* bodies, uint
         const Body& body = world->rigid.bodies[bodies[done].index];
         positions[done] = body.target_position;
         orientations[done] = body.target_orientation;
+        const WithinBone within_bone(*world, done);
         result = lks_body_move_to(world, bodies[done], pose[done]);
     }
     while (result != LKS_OK && done-- > 0) {

@@ -7,11 +7,11 @@
 
 namespace lks {
 
-// Of a failure of its body's or its joint's: which bone it is.
+// Of a failure of its body's, its joint's or its pose's: which bone it is, and of which pose.
 class WithinBone {
 public:
-    WithinBone(const lks_world& world, std::uint32_t index) : world_(world) {
-        name_ << "Bone " << index << ": ";
+    WithinBone(const lks_world& world, std::uint32_t index, const char* when = "") : world_(world) {
+        name_ << "Bone " << index << when << ": ";
         world_.failing_within = &name_;
     }
     ~WithinBone() { world_.failing_within = nullptr; }
