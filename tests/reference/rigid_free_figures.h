@@ -103,18 +103,25 @@ private:
 
     bool find_pivot(Figure& figure) {
         int holders = 0;
-        bool found = false;
+        bool found = true;
         for (const Joint& joint : parts_.joints) {
             const bool a_moves = body(joint.a).moves;
-            if (parts_.figure_of(joint) != figure.name || (a_moves && body(joint.b).moves)) {
+            if (parts_.figure_of(joint) != figure.name) {
+                continue;
+            }
+            found = found && joint.only_pulls();
+            if (a_moves && body(joint.b).moves) {
                 continue;
             }
             ++holders;
             const Body& holder = body(a_moves ? joint.b : joint.a);
-            found = joint.only_pulls() && greatest(holder.velocity) == 0 && greatest(holder.spin) == 0;
+            found = found && greatest(holder.velocity) == 0 && greatest(holder.spin) == 0;
             figure.pivot = holder.position + joint.point_of(holder, !a_moves);
         }
-        return holders == 1 && found;
+        const auto sum = [](const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+        const Vec step = gravity_ * body(figure.bodies.front()).gravity_factor;
+        return holders == 1 && found &&
+               sum(centre_of(figure).position - figure.pivot) >= 256 * sum(step) / rate_;
     }
 
     // With g what a substep of gravity has made a velocity v, v² was 2·g·v − g² less.

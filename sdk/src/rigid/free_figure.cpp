@@ -41,24 +41,32 @@ bool only_pulls(const Joint& joint) {
            !c.twist_limited && c.grip == 0 && c.drag_softness == 0;
 }
 
-// Of a figure that is held: by one joint alone, at something that stands.
-bool find_pivot(const RigidScene& scene, const FigureRange& figure, Vec3& pivot) {
+// Of a figure that is held: by one joint alone, at something that stands, and so that a substep of gravity is
+// short beside it: else what it gains and gives back in each swing is much.
+bool find_pivot(const RigidScene& scene, const FigureRange& figure, const MotionRate& rate, Vec3& pivot) {
     int holders = 0;
-    bool found = false;
+    bool found = true;
     for_each_part(scene, figure, Part::joint, [&](std::uint32_t i) {
         const Joint& joint = scene.joints[i];
         const Body& a = scene.bodies[joint.description.body_a];
         const Body& b = scene.bodies[joint.description.body_b];
+        found = found && only_pulls(joint);
         if (a.is_awake() && b.is_awake()) {
             return;
         }
         ++holders;
         const Body& holder = a.is_awake() ? b : a;
         const Vec3& point = a.is_awake() ? joint.description.point_b : joint.description.point_a;
-        found = only_pulls(joint) && !holder.is_dynamic() && !holder.is_moving();
+        found = found && !holder.is_dynamic() && !holder.is_moving();
         pivot = holder.position + fixed::rotate(holder.rotation, point);
     });
-    return holders == 1 && found;
+    if (holders != 1 || !found) {
+        return false;
+    }
+    constexpr std::int64_t least_ratio = 256;
+    const Vec3 lever = saturating_subtract(FigureMomentum(scene, figure).position(), pivot);
+    const Vec3& step = scene.ticks[name_of(scene, figure)].gravity_step;
+    return sum_of_magnitudes(lever) >= least_ratio * (sum_of_magnitudes(step) / rate.substeps_per_second);
 }
 
 // Neither motors nor springs are at work.
@@ -88,18 +96,28 @@ bool falls_unevenly(const RigidScene& scene, const FigureRange& figure) {
     return uneven;
 }
 
-void begin_tick(const RigidScene& scene, FigureRange& figure) {
+void begin_tick(const RigidScene& scene, FigureRange& figure, const MotionRate& rate) {
     FreeMotion& motion = figure.motion;
     motion = {};
     if (!may_be_free(scene, figure)) {
         return;
     }
     const bool uneven = has_uneven_tree(scene, figure);
-    motion.has_pivot = figure.is_held && !uneven && find_pivot(scene, figure, motion.pivot);
+    motion.has_pivot = figure.is_held && !uneven && find_pivot(scene, figure, rate, motion.pivot);
     motion.free = motion.has_pivot || !figure.is_held;
     motion.passive = motion.free && !motion.has_pivot && is_passive(scene, figure);
     motion.gravity_works = motion.passive && falls_unevenly(scene, figure);
     motion.each_substep = uneven || (figure.has_held_tree && !figure.is_held);
+}
+
+// ω × r, as exact as velocities.
+Vec3 turning(const Vec3& spin, const Vec3& lever) {
+    const auto part = [](std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+        return fixed::saturate_to_int64((fixed::multiply_signed(a, b) - fixed::multiply_signed(c, d)) >>
+                                        world_fraction_bits);
+    };
+    return {part(spin.y, lever.z, spin.z, lever.y), part(spin.z, lever.x, spin.x, lever.z),
+            part(spin.x, lever.y, spin.y, lever.x)};
 }
 
 class FreeFigure {
@@ -113,9 +131,8 @@ public:
         if (spin == Vec3{0, 0, 0}) {
             return;
         }
-        const Speeds turning{{0, 0, 0}, spin};
         for_each_body([&](Body& body) {
-            set_speeds(body, body.velocity + velocity_at(turning, lever_of(now, body)),
+            set_speeds(body, body.velocity + turning(spin, lever_of(now, body)),
                        body.angular_velocity + spin);
         });
         if (figure_.motion.passive) {
@@ -153,9 +170,9 @@ private:
             together = allowed < least ? energy_factor(allowed, least) : one_factor;
         }
         for_each_body([&](Body& body) {
-            const Vec3 turning = velocity_at({{0, 0, 0}, whole.spin}, lever_of(now, body));
-            const Vec3 own = body.velocity - whole.velocity - turning;
-            set_speeds(body, whole.velocity + times(turning + times(own, beside), together),
+            const Vec3 turned = turning(whole.spin, lever_of(now, body));
+            const Vec3 own = body.velocity - whole.velocity - turned;
+            set_speeds(body, whole.velocity + times(turned + times(own, beside), together),
                        times(whole.spin + times(body.angular_velocity - whole.spin, beside), together));
         });
     }
@@ -177,7 +194,7 @@ private:
 void FreeFigures::begin_substep(FigureRange& figure, std::uint32_t substep) const {
     FreeMotion& motion = figure.motion;
     if (substep == 1) {
-        begin_tick(scene_, figure);
+        begin_tick(scene_, figure, rate_);
     }
     if (motion.passive && (substep == 1 || motion.each_substep)) {
         motion.energy = FigureMomentum(scene_, figure).energy();

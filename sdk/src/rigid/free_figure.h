@@ -13,8 +13,9 @@
 // and momentum is brought nearer to that, and where that has more energy all of it turns less. Where masses
 // are as 1 : 100, or light bodies hold heavy ones, that is done after each substep.
 //
-// What one ball joint without limits and friction holds at something that stands, a pendulum or a top, keeps
-// its momentum about that pivot alike: only gravity turns it there. Its energy needs no such care.
+// What one ball joint holds at something that stands, a pendulum, a top or a chain, keeps its momentum about
+// that pivot alike, where none of its joints has limits or friction: only gravity turns it there. Its energy
+// needs no such care.
 #pragma once
 
 #include "rigid/body_motion.h"

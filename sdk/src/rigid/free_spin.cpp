@@ -39,7 +39,6 @@ bool is_great(const Vec3& change, const Vec3& spin) {
 }
 
 constexpr int jacobian_fraction_bits = 18;
-constexpr int inverse_fraction_bits = 30;
 
 // By rows.
 struct WideMatrix3 {
