@@ -111,9 +111,20 @@ void wind(const std::string& scene, double friction, const Bounds& bounds) {
     expect_nothing_clamped(trial);
 }
 
-// Its tail is pinned, and its other end is led down within a second, and stays there: the pole holds the rope
-// apart, whatever it wants.
-void pull(double metres, double joules) {
+// Of a rope that is pulled by more than it can give, and led back.
+struct Pull {
+    double metres;
+    double stretch;      // percent, pulled
+    double joules;       // kinetic, pulled
+    double off;          // percent of the edges, pulled
+    double back_joules;  // kinetic, led back
+    double back_seconds; // until it has recovered; 0: it does not
+    double back_off = 1; // percent of the edges, at the end
+};
+
+// Its tail is pinned, and its other end is led down within a second, stays there for five, is led back within
+// one, and stays there: the pole holds the rope apart, whatever it wants.
+void pull(const Pull& row) {
     const WoundRope rope = wound_rope(0.01);
     const Asset asset(rope.def);
     Subject subject = subject_of(rope, asset);
@@ -126,16 +137,32 @@ void pull(double metres, double joules) {
     trial.pin(last);
     trial.run(30);
     const Vector end = trial.positions()[last];
-    for (int tick = 1; tick <= 60; ++tick) {
-        trial.set_target(last, {end.x, end.y - metres * tick / 60, end.z});
+    const auto lead = [&](int tick) {
+        trial.set_target(last, {end.x, end.y - row.metres * tick / 60, end.z});
         trial.run(1);
-    }
-    trial.skip(240);
+    };
     trial.begin();
-    trial.run(60);
-    const std::string scene = named("rope 20 times around a pole, pulled by ", metres, " m");
+    for (int tick = 1; tick <= 60; ++tick) {
+        lead(tick);
+    }
+    trial.run(300);
+    std::string scene = named("rope 20 times around a pole, pulled by ", row.metres, " m");
     expect_depth_at_most(scene, trial, 1e-5);
-    expect_kinetic_energy_at_most(scene, trial, joules);
+    expect_stretch_at_most(scene, trial, row.stretch, {0, row.off});
+    expect_kinetic_energy_at_most(scene, trial, row.joules);
+    expect_last_kinetic_energy_at_most(scene, trial, 1e-3);
+    trial.begin();
+    for (int tick = 59; tick >= 0; --tick) {
+        lead(tick);
+    }
+    trial.run(600);
+    scene += ", led back";
+    if (row.back_seconds > 0) {
+        expect_recovery_within(scene, trial, row.back_seconds);
+    }
+    expect_last_off_at_most(scene, trial, row.back_off);
+    expect_kinetic_energy_at_most(scene, trial, row.back_joules);
+    expect_last_kinetic_energy_at_most(scene, trial, 0.01);
     expect_nothing_clamped(trial);
 }
 
@@ -143,8 +170,11 @@ struct MovingPole {
     int turns;
     double friction;
     std::uint32_t hz, substeps;
-    double joules;     // at any time
-    double end_joules; // when the pole has been back for ten seconds
+    double joules;      // at any time
+    double end_joules;  // when the pole has been back for ten seconds
+    double stretch;     // percent, at any time
+    double off = 1;     // percent of the edges, at the end
+    double seconds = 0; // from when the pole began to move until it has recovered; 0: it does not
 };
 
 // Both ends are pinned. place(seconds): of the pole, which is back where it was after so many.
@@ -160,16 +190,21 @@ void carry_off(const std::string& how, const MovingPole& row, double seconds,
     trial.pin(0);
     trial.pin(static_cast<std::uint32_t>(trial.size()) - 1);
     trial.run(static_cast<int>(row.hz / 2));
+    trial.begin();
     const auto ticks = static_cast<int>(seconds * row.hz);
     for (int tick = 1; tick <= ticks; ++tick) {
         const Vector p = place(tick / static_cast<double>(row.hz));
         trial.move_to(pole, support::fixed(p.x, p.y, p.z));
         trial.run(1);
     }
-    trial.skip(static_cast<int>(8 * row.hz));
-    trial.run(static_cast<int>(2 * row.hz));
+    trial.run(static_cast<int>(10 * row.hz));
     const std::string scene = named("rope ", row.turns, " times around a ", row.friction > 0 ? "" : "smooth ",
                                     "pole, ", how, ", ", row.hz, " Hz × ", row.substeps);
+    expect_worst_stretch_at_most(scene, trial, row.stretch);
+    if (row.seconds > 0) {
+        expect_recovery_within(scene, trial, row.seconds);
+    }
+    expect_last_off_at_most(scene, trial, row.off);
     expect_kinetic_energy_at_most(scene, trial, row.joules);
     expect_last_kinetic_energy_at_most(scene, trial, row.end_joules);
     tell(scene, "speeds clamped", "", static_cast<double>(trial.world().counters().speed_clamps),
@@ -191,24 +226,25 @@ Vector shake(double time) {
 TEST_CASE(
     "a rope wound around a pole that moves off, or is shaken, with its ends held, keeps its energy bounded") {
     // The pole at 3 m/s has 8 J for the rope of five turns, shaken at up to 31 m/s 2.6 kJ for that of twenty.
-    const MovingPole lifted[] = {{3, 0.3, 60, 10, 1000, 1},
-                                 {5, 0, 240, 1, 5000, 20},
-                                 {5, 0, 60, 5, 20000, 20},
-                                 {5, 0, 60, 10, 200000, 20}};
+    const MovingPole lifted[] = {{3, 0.3, 60, 10, 1000, 1, 2000, 60},
+                                 {5, 0, 240, 1, 5000, 20, 4000, 1, 15},
+                                 {5, 0, 60, 5, 20000, 20, 4000, 1, 15},
+                                 {5, 0, 60, 10, 200000, 20, 5000, 1, 15}};
     for (const MovingPole& row : lifted) {
         carry_off("lifted by 3 m and back", row, 7, lift);
     }
-    const MovingPole shaken[] = {
-        {20, 0, 60, 5, 5000, 100}, {20, 0.5, 240, 1, 5000, 100}, {10, 0.2, 60, 10, 5000, 20}};
+    const MovingPole shaken[] = {{20, 0, 60, 5, 5000, 100, 3000, 1, 2},
+                                 {20, 0.5, 240, 1, 5000, 100, 5000, 60},
+                                 {10, 0.2, 60, 10, 5000, 20, 4000, 1, 3}};
     for (const MovingPole& row : shaken) {
         carry_off("shaken by 0.5 m ten times a second", row, 2, shake);
     }
 }
 
 TEST_CASE("a rope wound twenty times around a pole and pulled further than it can give comes to rest") {
-    pull(0.1, 1e-4);
-    pull(0.5, 1e-3);
-    pull(10, 1e-3);
+    pull({0.1, 150, 0.02, 7, 0.01, 2});
+    pull({0.5, 2000, 1500, 12, 0.1, 0, 7});
+    pull({10, 7000, 50, 12, 5, 0, 7});
 }
 
 TEST_CASE("a rope wound twenty times around a pole holds a weight") {
