@@ -83,8 +83,8 @@ TEST_CASE("cloths with edges of ten metres hang") {
     hang({12, 10, 60, 20, 600, 0.4, 0.3});
 }
 
-TEST_CASE("cloths as large as an object hang whatever their number" * doctest::skip(support::sanitised)) {
-    hang({64, 1.75, 60, 20, 60, 3, 0.6});
+TEST_CASE("cloths as large as an object hang whatever their number") {
+    hang({64, 1.75, 60, 20, sanitised ? 10 : 60, 3, 0.6});
     hang({512, 0.215, 60, 20, long_runs() ? 120 : 1, long_runs() ? 350 : 0.005, long_runs() ? 14 : 0.005});
 }
 

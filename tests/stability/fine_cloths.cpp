@@ -52,13 +52,12 @@ TEST_CASE("a cloth of 64 x 64 never explodes at 5 x 1 and 20 x 1 and 80 x 1") {
 
 TEST_CASE("a cloth of 256 x 256 never explodes at 5 x 1 and 20 x 1 and 80 x 1") {
     const bool whole = long_runs();
-    hang({256, 5, whole ? 300 : 8, 40000, {0, whole ? 86. : 0}});
-    hang({256, 20, whole ? 300 : 2, 3000, {0, whole ? 62. : 0}});
-    hang({256, 80, whole ? 300 : 1, 300, {0, whole ? 1. : 0}});
+    hang({256, 5, whole ? 300 : 8, whole ? 40000. : 400, {0, whole ? 86. : 0}});
+    hang({256, 20, whole ? 300 : 2, whole ? 3000. : 7, {0, whole ? 62. : 0}});
+    hang({256, 80, whole ? 300 : 1, whole ? 300. : 0.6, {0, whole ? 1. : 0}});
 }
 
-TEST_CASE("the same cloth in index order explodes in double precision and in colour order does not" *
-          doctest::skip(support::sanitised)) {
+TEST_CASE("the same cloth in index order explodes in double precision and in colour order does not") {
     Net net;
     net.side = 64;
     net.particle_mass = 1.0 / (64.0 * 64.0);
@@ -77,7 +76,7 @@ TEST_CASE("the same cloth in index order explodes in double precision and in col
     const auto hang_in = [&](auto& solver, double& most_energy, double& most_stretch) {
         solver.pin(0);
         solver.pin(net.side - 1);
-        for (int tick = 0; tick < 120 && std::isfinite(most_stretch); ++tick) {
+        for (int tick = 0; tick < (sanitised ? 20 : 120) && std::isfinite(most_stretch); ++tick) {
             solver.tick();
             most_energy = std::max(most_energy, solver.kinetic_energy());
             most_stretch = std::max(most_stretch, solver.worst_stretch());
@@ -95,6 +94,7 @@ TEST_CASE("the same cloth in index order explodes in double precision and in col
     expect_at_most(scene, "kinetic energy, in the order of colours", "J", 20, energy[0], single_energy[0]);
     expect_at_most(scene, "stretch, in the order of colours", "%", 100, 100 * stretch[0],
                    100 * single_stretch[0]);
-    // A kilogram of cloth faster than sound.
-    expect_at_least(scene, "kinetic energy, in the order of indices", "J", 1e5, energy[1], single_energy[1]);
+    // A kilogram of cloth faster than sound. (Later than what a sanitizer has the time for.)
+    expect_at_least(scene, "kinetic energy, in the order of indices", "J", sanitised ? 0 : 1e5, energy[1],
+                    single_energy[1]);
 }

@@ -94,7 +94,9 @@ TEST_CASE("a cloth whose particles fly apart at the speed limit is clamped, coun
     trial.begin();
     trial.run(600);
     const std::string scene = "cloth 12 × 12, every particle at ±1000 m/s on each axis";
+    expect_worst_stretch_at_most(scene, trial, 70);
     expect_recovery_within(scene, trial, 0.5);
+    expect_last_stretch_at_most(scene, trial, 1);
     expect_gain_at_most(scene, trial, 1e-6);
     tell(scene, "speeds clamped", "", static_cast<double>(trial.world().counters().speed_clamps),
          "it clamps nothing");

@@ -114,6 +114,7 @@ void hang(double stretch, double damping, const Rate& rate) {
 // Its points at random in a cube of 20 m. What is left of the energy of its springs, percent.
 void blow_apart(double compliance, double damping, const Rate& rate) {
     double left = 0;
+    double twin_left = 0;
     double clamps = 0;
     for (std::uint32_t seed = 0; seed < 4; ++seed) {
         const Chain chain = bungee(30, seed % 2 == 0 ? 0.01 : 1, compliance, damping);
@@ -129,14 +130,18 @@ void blow_apart(double compliance, double damping, const Rate& rate) {
         trial.put(places);
         trial.begin();
         trial.run(static_cast<int>(10 * rate.hz));
-        const Measured& last = trial.fixed().last();
-        left = std::max(left,
-                        (last.kinetic_energy + last.elastic_energy) / trial.fixed().start().elastic_energy);
+        const auto left_of = [](const Course& course) {
+            return (course.last().kinetic_energy + course.last().elastic_energy) /
+                   course.start().elastic_energy;
+        };
+        left = std::max(left, left_of(trial.fixed()));
+        const double of_twin = left_of(trial.single());
+        twin_left = of_twin <= twin_left ? twin_left : of_twin; // also where it is no number
         clamps += static_cast<double>(trial.world().counters().position_clamps);
     }
     const std::string scene =
         named("four ropes of ", compliance, " m/N, ", damping, " N·s/m, blown apart", rate_name(rate));
-    expect_at_most(scene, "energy left, ten seconds later", "%", 6, 100 * left, "it does not mend ropes");
+    expect_at_most(scene, "energy left, ten seconds later", "%", 6, 100 * left, 100 * twin_left);
     tell(scene, "positions clamped", "", clamps, "it clamps nothing");
 }
 
