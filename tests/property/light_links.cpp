@@ -68,9 +68,9 @@ struct Barbell {
 
 } // namespace
 
-// Until figures in flight kept their momentum (rigid/free_figure.h), 1 : 10⁴ gained 2 % and 1 : 10⁶ up to half.
-// Before, at 8 substeps and 1 : 110, hinges gained 9 times their energy and were 21 cm apart, fixed joints
-// gained 280 times and limits 260; at 1 : 10 they were 2, 3 and 1 mm apart.
+// Until figures in flight kept their momentum (rigid/free_figure.h), 1 : 10⁴ gained 2 % and 1 : 10⁶ up to
+// half. Before, at 8 substeps and 1 : 110, hinges gained 9 times their energy and were 21 cm apart, fixed
+// joints gained 280 times and limits 260; at 1 : 10 they were 2, 3 and 1 mm apart.
 TEST_CASE("a light link between heavy bodies holds them together and gains no energy") {
     for (const Hold hold : {Hold::hinges, Hold::fixed, Hold::limits}) {
         for (const double ratio : {10., 30., 110., 1000., 1e4, 1e6}) {
