@@ -38,15 +38,19 @@ void set_velocity(const World& world, lks_body_id body, const Vector& velocity, 
                                   fixed(spin.x, spin.y, spin.z)) == LKS_OK);
 }
 
-// All of them turn as one body.
-void whirl(const World& world, const std::vector<lks_body_id>& bodies, const Vector& spin) {
-    Vector centre{};
+Vector centre_of(const World& world, const std::vector<lks_body_id>& bodies) {
+    Vector sum{};
     double mass = 0;
     for (const lks_body_id body : bodies) {
-        centre = centre + state_of(world, body).position * mass_of(world, body);
+        sum = sum + state_of(world, body).position * mass_of(world, body);
         mass += mass_of(world, body);
     }
-    centre = centre * (1 / mass);
+    return sum * (1 / mass);
+}
+
+// All of them turn as one body.
+void whirl(const World& world, const std::vector<lks_body_id>& bodies, const Vector& spin) {
+    const Vector centre = centre_of(world, bodies);
     for (const lks_body_id body : bodies) {
         set_velocity(world, body, cross(spin, state_of(world, body).position - centre), spin);
     }
@@ -70,13 +74,8 @@ struct Balls {
     }
 
     Vector angular_momentum() const {
-        Vector sum{}, centre{};
-        double mass = 0;
-        for (const lks_body_id ball : balls) {
-            centre = centre + state_of(world, ball).position * mass_of(world, ball);
-            mass += mass_of(world, ball);
-        }
-        centre = centre * (1 / mass);
+        const Vector centre = centre_of(world, balls);
+        Vector sum{};
         for (const lks_body_id ball : balls) {
             const BodyState state = state_of(world, ball);
             const double own = mass_of(world, ball);
