@@ -10,6 +10,7 @@
 
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
+#include "support/sanitised.h"
 
 using namespace support;
 using namespace stability;
@@ -230,21 +231,30 @@ TEST_CASE(
                                  {5, 0, 240, 1, 5000, 20, 4000, 1, 15},
                                  {5, 0, 60, 5, 20000, 20, 4000, 1, 15},
                                  {5, 0, 60, 10, 200000, 20, 5000, 1, 15}};
+    // Under sanitizers all of it takes minutes: one row of each.
     for (const MovingPole& row : lifted) {
         carry_off("lifted by 3 m and back", row, 7, lift);
+        if (sanitised) {
+            break;
+        }
     }
     const MovingPole shaken[] = {{20, 0, 60, 5, 5000, 100, 3000, 1, 2},
                                  {20, 0.5, 240, 1, 5000, 100, 5000, 60},
                                  {10, 0.2, 60, 10, 5000, 20, 4000, 1, 3}};
     for (const MovingPole& row : shaken) {
         carry_off("shaken by 0.5 m ten times a second", row, 2, shake);
+        if (sanitised) {
+            break;
+        }
     }
 }
 
 TEST_CASE("a rope wound twenty times around a pole and pulled further than it can give comes to rest") {
     pull({0.1, 150, 0.02, 7, 0.01, 2});
     pull({0.5, 2000, 1500, 12, 0.1, 0, 7});
-    pull({10, 7000, 50, 12, 5, 0, 7});
+    if (!sanitised) {
+        pull({10, 7000, 50, 12, 5, 0, 7});
+    }
 }
 
 TEST_CASE("a rope wound twenty times around a pole holds a weight") {
