@@ -222,10 +222,10 @@ Int128 FigureMomentum::energy() const {
     return sum;
 }
 
-Int128 FigureMomentum::energy_of(const Vec3& spin) const {
-    const Sum3 sum = momentum();
+Int128 energy_of_turning(const Sum3& momentum, const Vec3& spin) {
     const auto l = [](const Int128& part) { return fixed::saturate_to_int64(part >> world_fraction_bits); };
-    return dot_product({l(sum.x), l(sum.y), l(sum.z)}, spin) >> (sum_fraction_bits - energy_fraction_bits);
+    return dot_product({l(momentum.x), l(momentum.y), l(momentum.z)}, spin) >>
+           (sum_fraction_bits - energy_fraction_bits);
 }
 
 // Where a body has been moved by d it is n·d faster:

@@ -33,10 +33,8 @@ public:
 
     Sum3 momentum() const;
     FigureInertia inertia() const;
-    // Twice that of all motion about it, 64 fraction bits, and that of a body of this inertia and momentum,
-    // whose spin is given.
+    // Twice that of all motion about it, 64 fraction bits.
     fixed::Int128 energy() const;
-    fixed::Int128 energy_of(const fixed::Vec3& spin) const;
 
 private:
     const RigidScene& scene_;
@@ -44,6 +42,9 @@ private:
     fixed::Vec3 position_;
     fixed::Vec3 velocity_;
 };
+
+// The same of one body with this momentum and spin.
+fixed::Int128 energy_of_turning(const Sum3& momentum, const fixed::Vec3& spin);
 
 // What the figure's momentum would be now if nothing had moved its bodies from where they were predicted,
 // less what it is.

@@ -45,4 +45,12 @@ void for_each_part_back(const RigidScene& scene, const FigureRange& figure, Part
     }
 }
 
+// One of its trees has masses of 1 : 100 and more (rigid/uneven_tree.h).
+inline bool has_uneven_tree(const RigidScene& scene, const FigureRange& figure) {
+    bool uneven = false;
+    for_each_part(scene, figure, Part::tree,
+                  [&](std::uint32_t i) { uneven = uneven || scene.trees[i].is_uneven; });
+    return uneven;
+}
+
 } // namespace lks

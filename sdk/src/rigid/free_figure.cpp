@@ -21,17 +21,10 @@ Vec3 times(const Vec3& v, std::int64_t factor) {
     return factor == one_factor ? v : Vec3{part(v.x), part(v.y), part(v.z)};
 }
 
-bool is_near_particles(const RigidScene& scene, const FigureRange& figure) {
-    const std::uint32_t own = name_of(scene, figure);
-    return std::any_of(scene.object_pairs.begin(), scene.object_pairs.end(), [&](std::uint64_t pair) {
-        return scene.figures[static_cast<std::uint32_t>(pair)] == own;
-    });
-}
-
 // Joints hold it together, and nothing outside is near that may push it but contacts and joints.
 bool may_be_free(const RigidScene& scene, const FigureRange& figure) {
     return figure.count(Part::joint) != 0 && !figure.is_loaded && figure.count(Part::attachment) == 0 &&
-           !is_near_particles(scene, figure);
+           !is_near_objects(scene, figure, [](std::uint32_t) { return true; });
 }
 
 // Turns without any resistance.
@@ -78,13 +71,6 @@ bool is_passive(const RigidScene& scene, const FigureRange& figure) {
                   joint.constants.limits.softness == 0;
     });
     return passive;
-}
-
-bool has_uneven_tree(const RigidScene& scene, const FigureRange& figure) {
-    bool uneven = false;
-    for_each_part(scene, figure, Part::tree,
-                  [&](std::uint32_t i) { uneven = uneven || scene.trees[i].is_uneven; });
-    return uneven;
 }
 
 bool falls_unevenly(const RigidScene& scene, const FigureRange& figure) {
@@ -164,8 +150,9 @@ private:
         if (energy - allowed <= allowed >> 8) {
             together = energy_factor(allowed, energy);
         } else {
-            whole.spin = now.inertia().spin_of(now.momentum());
-            const Int128 least = now.energy_of(whole.spin);
+            const Sum3 momentum = now.momentum();
+            whole.spin = now.inertia().spin_of(momentum);
+            const Int128 least = energy_of_turning(momentum, whole.spin);
             beside = allowed > least ? energy_factor(allowed - least, energy - least) : 0;
             together = allowed < least ? energy_factor(allowed, least) : one_factor;
         }

@@ -16,7 +16,6 @@ namespace lks {
 namespace {
 
 using fixed::Int128;
-using fixed::UInt128;
 using fixed::Vec3;
 
 // Bodies that move alike hold together.
@@ -278,11 +277,8 @@ private:
     }
 
     bool is_near_particles() const {
-        const std::uint32_t own = name_of(scene_, range_);
-        return std::any_of(scene_.object_pairs.begin(), scene_.object_pairs.end(), [&](std::uint64_t pair) {
-            return scene_.figures[static_cast<std::uint32_t>(pair)] == own &&
-                   !(range_.is_loaded && is_own(static_cast<std::uint32_t>(pair >> 32)));
-        });
+        return is_near_objects(
+            scene_, range_, [this](std::uint32_t object) { return !(range_.is_loaded && is_own(object)); });
     }
 
     // What a motor, or friction, has given, and what is soft has given or taken.

@@ -551,9 +551,6 @@ void RigidSubstep::collide_objects(std::uint32_t substep) {
 // Where light bones may have turned further than a substep follows, where joints of what is held are swept
 // one by one, as soft ones are, and at the narrow ends of ellipses, about which limits turn fast.
 bool RigidSubstep::may_gain(const FigureRange& figure) const {
-    bool uneven = false;
-    for_each_part(scene_, figure, Part::tree,
-                  [&](std::uint32_t i) { uneven = uneven || scene_.trees[i].is_uneven; });
     bool loose = false;
     if (figure.is_held) {
         for_each_part(scene_, figure, Part::joint, [&](std::uint32_t i) {
@@ -561,7 +558,7 @@ bool RigidSubstep::may_gain(const FigureRange& figure) const {
             loose = loose || has_spring(joint.constants) || has_ellipse(joint.constants);
         });
     }
-    return uneven || loose || figure.relieved;
+    return has_uneven_tree(scene_, figure) || loose || figure.relieved;
 }
 
 // All contacts together: what comes down on several at once, on four feet or across a seam, would spin if
