@@ -19,10 +19,9 @@ public:
 
     // rate: substeps a second.
     JointDrive(const RigidJoint& joint, Scalar rate)
-        : hinge_(joint.kind == LKS_JOINT_HINGE),
-          axis_only_(joint.kind == LKS_JOINT_HINGE && joint.angular_compliance > 0),
-          frame_a_(quaternion_of<Scalar>(joint.frame_a)), frame_b_(quaternion_of<Scalar>(joint.frame_b)),
-          limits_(joint, rate), rate_(rate), friction_(static_cast<Scalar>(joint.friction)),
+        : hinge_(joint.kind == LKS_JOINT_HINGE), frame_a_(quaternion_of<Scalar>(joint.frame_a)),
+          frame_b_(quaternion_of<Scalar>(joint.frame_b)), limits_(joint, rate), rate_(rate),
+          friction_(static_cast<Scalar>(joint.friction)),
           drag_softness_(joint.angular_damping > 0 ? rate / static_cast<Scalar>(joint.angular_damping) : 0) {
         set_motor(joint.motor);
     }
@@ -97,10 +96,10 @@ private:
         return axis * (angle / (axis.dot(a.world_inverse * axis + b.world_inverse * axis) + softness));
     }
 
-    // A soft hinge's friction, or motor, bears nothing across its axis.
+    // A hinge's friction, or motor, bears nothing across its axis.
     Vec driven_part(const Body& a, const Vec& turn) const {
         const Vec axis = a.rotation * frame_a_.matrix().column(1);
-        return axis_only_ ? axis * axis.dot(turn) : turn;
+        return hinge_ ? axis * axis.dot(turn) : turn;
     }
 
     // By what the aim is missed by.
@@ -129,7 +128,6 @@ private:
     }
 
     bool hinge_;
-    bool axis_only_; // a soft hinge
     Quat frame_a_, frame_b_;
     JointLimits<Scalar> limits_; // for what they let a motor aim at
     Scalar rate_;

@@ -29,10 +29,10 @@ Vec3 within_grip(const Joint& joint, const Vec3& turn) {
     return beyond ? fixed::scale(size.direction, joint.constants.grip) : turn;
 }
 
-// Across its axis a soft hinge bends in each substep anew, before what holds it there has pushed enough:
-// friction that took that for a turn to be stopped would bear the load across, too, and slip about the axis.
+// Across its axis a hinge bends a little in each substep before what holds it there has pushed enough.
+// Friction that took that for a turn to be stopped would bear the load across, too, and slip about the axis.
 Vec3 driven_part(const Joint& joint, const Body& a, const Vec3& turn) {
-    if (joint.description.kind != LKS_JOINT_HINGE || joint.constants.angular_softness == 0) {
+    if (joint.description.kind != LKS_JOINT_HINGE) {
         return turn;
     }
     const Direction axis = fixed::rotate(a.rotation, joint.constants.axis_a);
