@@ -108,19 +108,19 @@ TEST_CASE("a thrown pair on a hinge is within 2e-5 m after a second, 4e-4 m afte
     }
 }
 
-TEST_CASE("an arm on a level hinge is within 4e-6 m after a second, 1e-5 m after ten") {
+TEST_CASE("an arm on a level hinge is within 1e-7 m after a second, 1e-6 m after ten") {
     for (const int substeps : {8, 20}) {
         RigidScene scene(with_substeps(substeps));
         add_arm(scene, LKS_JOINT_HINGE, 0);
-        check_run("level hinge" + substeps_name(substeps), scene, {4e-6, 8e-6, 100}, {1e-5, 2e-5, 100});
+        check_run("level hinge" + substeps_name(substeps), scene, {1e-7, 2e-7, 100}, {1e-6, 2e-6, 100});
     }
 }
 
-TEST_CASE("an arm on a leaning hinge is within 4e-6 m after a second, 7e-5 m after ten") {
+TEST_CASE("an arm on a leaning hinge is within 1e-7 m after a second, 1e-6 m after ten") {
     for (const int substeps : {8, 20}) {
         RigidScene scene(with_substeps(substeps));
         add_arm(scene, LKS_JOINT_HINGE, 30);
-        check_run("leaning hinge" + substeps_name(substeps), scene, {4e-6, 8e-6, 100}, {7e-5, 1.4e-4, 100});
+        check_run("leaning hinge" + substeps_name(substeps), scene, {1e-7, 2e-7, 100}, {1e-6, 2e-6, 50});
     }
 }
 

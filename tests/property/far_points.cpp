@@ -71,8 +71,7 @@ TEST_CASE("a small ball swings on an arm of up to 250 radii and gains no energy"
             CHECK(apart < 1e-6);
             CHECK(furthest < length * (1 + 1e-5));
             // Pendulums' energy goes to and fro (rigid/free_figure.h).
-            CHECK(most <
-                  (kind == LKS_JOINT_BALL ? 0.03 : 1e-3) * 9.81 * mass_of(arm.world, arm.ball) * length);
+            CHECK(most < 0.03 * 9.81 * mass_of(arm.world, arm.ball) * length);
         });
     }
 }

@@ -39,7 +39,7 @@ public:
             if (!figure.free) {
                 continue;
             }
-            if (is_pushed_from_outside(figure)) {
+            if (is_pushed_from_outside(figure) || (figure.has_pivot && figure.held_by->limits.pushes())) {
                 figure.free = figure.each_substep;
                 figure.lost = {};
                 continue;
@@ -58,8 +58,9 @@ private:
         std::size_t name = 0;
         std::vector<std::size_t> bodies{};
         bool free = true, passive = true, each_substep = false;
-        bool has_pivot = false;
-        Vec pivot{}, lost{};
+        bool has_pivot = false, has_axis = false;
+        const Joint* held_by = nullptr;
+        Vec pivot{}, axis{}, lost{};
         Scalar energy = 0;
     };
     struct Centre {
@@ -109,19 +110,27 @@ private:
             if (parts_.figure_of(joint) != figure.name) {
                 continue;
             }
-            found = found && joint.only_pulls();
-            if (a_moves && body(joint.b).moves) {
+            found = found && joint.turns_freely();
+            const bool is_inner = a_moves && body(joint.b).moves;
+            found = found && (!joint.limits.any() || (!is_inner && joint.is_hinge()));
+            if (is_inner) {
                 continue;
             }
             ++holders;
             const Body& holder = body(a_moves ? joint.b : joint.a);
             found = found && greatest(holder.velocity) == 0 && greatest(holder.spin) == 0;
+            figure.held_by = &joint;
             figure.pivot = holder.position + joint.point_of(holder, !a_moves);
+            figure.has_axis = joint.is_hinge();
+            figure.axis = joint.axis_of(holder, !a_moves);
         }
         const auto sum = [](const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
         const Vec step = gravity_ * body(figure.bodies.front()).gravity_factor;
-        return holders == 1 && found &&
-               sum(centre_of(figure).position - figure.pivot) >= 256 * sum(step) / rate_;
+        Vec lever = centre_of(figure).position - figure.pivot;
+        if (figure.has_axis) {
+            lever = lever - figure.axis * figure.axis.dot(lever);
+        }
+        return holders == 1 && found && sum(lever) >= 256 * sum(step) / rate_;
     }
 
     // With g what a substep of gravity has made a velocity v, v² was 2·g·v − g² less.
@@ -227,12 +236,19 @@ private:
         return sum;
     }
 
+    // About the hinge's axis, or any.
+    Vec lost_spin(const Figure& figure, const Matrix<Scalar>& inertia) const {
+        const Vec& axis = figure.axis;
+        return figure.has_axis ? axis * (axis.dot(figure.lost) / axis.dot(inertia * axis))
+                               : inverse_of(inertia) * figure.lost;
+    }
+
     void keep_momentum(const Figure& figure) {
         if (figure.lost.dot(figure.lost) == 0) {
             return;
         }
         const Centre centre = centre_of(figure);
-        const Vec spin = inverse_of(inertia(figure, centre)) * figure.lost;
+        const Vec spin = lost_spin(figure, inertia(figure, centre));
         for (const std::size_t i : figure.bodies) {
             Body& b = body(i);
             b.velocity = b.velocity + cross(spin, b.position - centre.position);

@@ -40,9 +40,13 @@ public:
                limits.is_soft();
     }
 
-    // Turns without any resistance.
-    bool only_pulls() const {
-        return kind_ == LKS_JOINT_BALL && in_tree && !limits.any() && !drive_.resists();
+    // Turns without any resistance, but for limits.
+    bool turns_freely() const {
+        return (kind_ == LKS_JOINT_BALL || kind_ == LKS_JOINT_HINGE) && in_tree && !drive_.resists();
+    }
+    bool is_hinge() const { return kind_ == LKS_JOINT_HINGE; }
+    Vec axis_of(const Body& body, bool is_a) const {
+        return body.rotation * (is_a ? frame_a_ : frame_b_).matrix().column(1);
     }
     Vec point_of(const Body& body, bool is_a) const { return body.rotation * (is_a ? point_a_ : point_b_); }
 

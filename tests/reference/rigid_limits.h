@@ -32,6 +32,7 @@ public:
 
     bool is_soft() const { return softness_.is_soft(); }
     bool any() const { return swings_ || twists_; }
+    bool pushes() const { return swing_push_ != 0 || twist_push_ != 0; }
 
     // Before the prediction: how far they let turn.
     void begin(const Body& a, const Body& b) {

@@ -9,6 +9,7 @@
 namespace lks {
 namespace {
 
+using fixed::Direction;
 using fixed::Int128;
 using fixed::UInt128;
 using fixed::Vec3;
@@ -102,6 +103,27 @@ Int128 weighed(const Int128& square, std::int64_t share) {
     return fixed::multiply_signed(fixed::saturate_to_int64(square >> down), share);
 }
 
+// Of entries of an inertia; and how much thinner than its greatest one may be.
+constexpr int entry_bits = 30;
+constexpr int thinnest = 22;
+
+// A momentum of 40 bits, in units of 2^down.
+struct ShortMomentum {
+    explicit ShortMomentum(const Sum3& sum)
+        : down(std::max({bits_of(sum.x), bits_of(sum.y), bits_of(sum.z), 40}) - 40), x(part(sum.x)),
+          y(part(sum.y)), z(part(sum.z)) {}
+
+    Int128 sum_of(std::int64_t a, std::int64_t b, std::int64_t c) const {
+        return fixed::multiply_signed(a, x) + fixed::multiply_signed(b, y) + fixed::multiply_signed(c, z);
+    }
+
+    int down;
+    std::int64_t x, y, z;
+
+private:
+    std::int64_t part(const Int128& sum) const { return static_cast<std::int64_t>((sum >> down).lo); }
+};
+
 // use(index, body, mass in that of the heaviest one)
 template <typename Use>
 void for_each_body(const RigidScene& scene, const FigureRange& figure, const Use& use) {
@@ -138,38 +160,60 @@ void FigureInertia::add_body(const SymmetricMatrix& inertia, std::int64_t share,
     add(zz_, inertia.zz);
 }
 
+bool FigureInertia::find_entries(Entries& entries) const {
+    const int down = std::max({bits_of(xx_), bits_of(yy_), bits_of(zz_)}) - entry_bits;
+    const auto part = [down](const Int128& entry) { return static_cast<std::int64_t>((entry >> down).lo); };
+    if (down >= 0) {
+        entries = {part(xx_), part(xy_), part(xz_), part(yy_), part(yz_), part(zz_), down};
+    }
+    return down >= 0;
+}
+
 Vec3 FigureInertia::spin_of(const Sum3& momentum) const {
-    constexpr int kept = 30;
-    constexpr int thinnest = 22;
-    const int down = std::max({bits_of(xx_), bits_of(yy_), bits_of(zz_)}) - kept;
-    const int momentum_bits = std::max({bits_of(momentum.x), bits_of(momentum.y), bits_of(momentum.z)});
-    if (down < 0 || momentum_bits == 0) {
+    Entries i;
+    if (!find_entries(i)) {
         return {0, 0, 0};
     }
-    const auto i = [down](const Int128& part) { return static_cast<std::int64_t>((part >> down).lo); };
-    const std::int64_t xx = i(xx_), xy = i(xy_), xz = i(xz_), yy = i(yy_), yz = i(yz_), zz = i(zz_);
-    const struct {
-        std::int64_t xx, xy, xz, yy, yz, zz;
-    } adjugate{yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy,
-               xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy};
-    const Int128 determinant = fixed::multiply_signed(adjugate.xx, xx) +
-                               fixed::multiply_signed(adjugate.xy, xy) +
-                               fixed::multiply_signed(adjugate.xz, xz);
-    if (determinant.hi <= 0 || bits_of(determinant) < 3 * kept - thinnest) {
+    const Entries adjugate{i.yy * i.zz - i.yz * i.yz,
+                           i.xz * i.yz - i.xy * i.zz,
+                           i.xy * i.yz - i.xz * i.yy,
+                           i.xx * i.zz - i.xz * i.xz,
+                           i.xy * i.xz - i.xx * i.yz,
+                           i.xx * i.yy - i.xy * i.xy,
+                           0};
+    const Int128 determinant = fixed::multiply_signed(adjugate.xx, i.xx) +
+                               fixed::multiply_signed(adjugate.xy, i.xy) +
+                               fixed::multiply_signed(adjugate.xz, i.xz);
+    if (determinant.hi <= 0 || bits_of(determinant) < 3 * entry_bits - thinnest) {
         return {0, 0, 0};
     }
-    const int momentum_down = std::max(momentum_bits - 40, 0);
-    const auto l = [momentum_down](const Int128& part) {
-        return static_cast<std::int64_t>((part >> momentum_down).lo);
-    };
-    const std::int64_t x = l(momentum.x), y = l(momentum.y), z = l(momentum.z);
+    const ShortMomentum l(momentum);
     const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
-        const Int128 sum =
-            fixed::multiply_signed(a, x) + fixed::multiply_signed(b, y) + fixed::multiply_signed(c, z);
-        return quotient(sum, determinant, momentum_down - down + world_fraction_bits);
+        return quotient(l.sum_of(a, b, c), determinant, l.down - i.down + world_fraction_bits);
     };
     return {row(adjugate.xx, adjugate.xy, adjugate.xz), row(adjugate.xy, adjugate.yy, adjugate.yz),
             row(adjugate.xz, adjugate.yz, adjugate.zz)};
+}
+
+Vec3 FigureInertia::spin_about(const Direction& axis, const Sum3& momentum) const {
+    Entries i;
+    if (!find_entries(i)) {
+        return {0, 0, 0};
+    }
+    const auto along = [&axis](std::int64_t x, std::int64_t y, std::int64_t z) {
+        return axis.x * x + axis.y * y + axis.z * z;
+    };
+    constexpr int bits = direction_fraction_bits;
+    const std::int64_t moment = along(along(i.xx, i.xy, i.xz) >> bits, along(i.xy, i.yy, i.yz) >> bits,
+                                      along(i.xz, i.yz, i.zz) >> bits);
+    if (moment >> (entry_bits + bits - thinnest) <= 0) {
+        return {0, 0, 0};
+    }
+    constexpr int up = 32;
+    const ShortMomentum l(momentum);
+    return fixed::scale(axis, quotient(l.sum_of(axis.x, axis.y, axis.z),
+                                       Int128{0, static_cast<std::uint64_t>(moment)} << up,
+                                       l.down - i.down + world_fraction_bits + up));
 }
 
 FigureMomentum::FigureMomentum(const RigidScene& scene, const FigureRange& figure)

@@ -18,8 +18,17 @@ public:
 
     // I⁻¹·momentum, World rad/s, to 2^-8 at the worst. Zero for what is as thin as 1 : 2^22 of inertia.
     fixed::Vec3 spin_of(const Sum3& momentum) const;
+    // The same of what can only turn about an axis.
+    fixed::Vec3 spin_about(const fixed::Direction& axis, const Sum3& momentum) const;
 
 private:
+    // As numbers of 30 bits, in units of 2^down; none: false.
+    struct Entries {
+        std::int64_t xx, xy, xz, yy, yz, zz;
+        int down;
+    };
+    bool find_entries(Entries& entries) const;
+
     fixed::Int128 xx_{0, 0}, xy_{0, 0}, xz_{0, 0}, yy_{0, 0}, yz_{0, 0}, zz_{0, 0};
 };
 

@@ -38,13 +38,16 @@ struct Sum3 {
 // Of a figure that nothing outside has pushed since it began, but for a pivot (rigid/free_figure.h).
 struct FreeMotion {
     bool free;
-    bool has_pivot;       // a ball joint holds it there that only pulls
-    fixed::Vec3 pivot;    // World
-    bool passive;         // neither motors, springs nor a pivot do any work on it
-    bool each_substep;    // and not each tick
-    bool gravity_works;   // on its motion about its centre of mass
-    Sum3 lost;            // of its angular momentum
-    fixed::Int128 energy; // that it began with
+    bool has_pivot; // a joint holds it there that turns freely
+    bool has_axis;  // about this axis only, in the world: a hinge
+    fixed::Direction axis;
+    fixed::Vec3 pivot;         // World
+    std::uint32_t pivot_joint; // index
+    bool passive;              // neither motors, springs nor a pivot do any work on it
+    bool each_substep;         // and not each tick
+    bool gravity_works;        // on its motion about its centre of mass
+    Sum3 lost;                 // of its angular momentum
+    fixed::Int128 energy;      // that it began with
 };
 
 // Where the parts of each kind begin among all parts, and where the last ones end.

@@ -27,39 +27,64 @@ bool may_be_free(const RigidScene& scene, const FigureRange& figure) {
            !is_near_objects(scene, figure, [](std::uint32_t) { return true; });
 }
 
-// Turns without any resistance.
-bool only_pulls(const Joint& joint) {
+// Turns without any resistance, but for limits.
+bool turns_freely(const Joint& joint) {
+    const std::uint32_t kind = joint.description.kind;
     const JointConstants& c = joint.constants;
-    return joint.description.kind == LKS_JOINT_BALL && joint.in_tree && !c.swing_limited &&
-           !c.twist_limited && c.grip == 0 && c.drag_softness == 0;
+    return (kind == LKS_JOINT_BALL || kind == LKS_JOINT_HINGE) && joint.in_tree && c.grip == 0 &&
+           c.drag_softness == 0;
+}
+
+bool is_hinge(const Joint& joint) {
+    return joint.description.kind == LKS_JOINT_HINGE;
+}
+
+bool is_limited(const Joint& joint) {
+    return joint.constants.swing_limited || joint.constants.twist_limited;
 }
 
 // Of a figure that is held: by one joint alone, at something that stands, and so that a substep of gravity is
 // short beside it: else what it gains and gives back in each swing is much.
-bool find_pivot(const RigidScene& scene, const FigureRange& figure, const MotionRate& rate, Vec3& pivot) {
+bool find_pivot(const RigidScene& scene, const FigureRange& figure, const MotionRate& rate,
+                FreeMotion& motion) {
     int holders = 0;
     bool found = true;
     for_each_part(scene, figure, Part::joint, [&](std::uint32_t i) {
         const Joint& joint = scene.joints[i];
         const Body& a = scene.bodies[joint.description.body_a];
         const Body& b = scene.bodies[joint.description.body_b];
-        found = found && only_pulls(joint);
-        if (a.is_awake() && b.is_awake()) {
+        found = found && turns_freely(joint);
+        const bool is_inner = a.is_awake() && b.is_awake();
+        found = found && (!is_limited(joint) || (!is_inner && is_hinge(joint)));
+        if (is_inner) {
             return;
         }
         ++holders;
-        const Body& holder = a.is_awake() ? b : a;
-        const Vec3& point = a.is_awake() ? joint.description.point_b : joint.description.point_a;
+        const bool holds_a = a.is_awake();
+        const Body& holder = holds_a ? b : a;
+        const JointConstants& c = joint.constants;
+        const Vec3& point = holds_a ? joint.description.point_b : joint.description.point_a;
         found = found && !holder.is_dynamic() && !holder.is_moving();
-        pivot = holder.position + fixed::rotate(holder.rotation, point);
+        motion.pivot_joint = i;
+        motion.pivot = holder.position + fixed::rotate(holder.rotation, point);
+        motion.has_axis = is_hinge(joint);
+        motion.axis = fixed::rotate(holder.rotation, holds_a ? c.axis_b : c.axis_a);
     });
     if (holders != 1 || !found) {
         return false;
     }
     constexpr std::int64_t least_ratio = 256;
-    const Vec3 lever = saturating_subtract(FigureMomentum(scene, figure).position(), pivot);
+    Vec3 lever = saturating_subtract(FigureMomentum(scene, figure).position(), motion.pivot);
+    if (motion.has_axis) {
+        lever = lever - fixed::scale(motion.axis, fixed::dot(motion.axis, lever));
+    }
     const Vec3& step = scene.ticks[name_of(scene, figure)].gravity_step;
     return sum_of_magnitudes(lever) >= least_ratio * (sum_of_magnitudes(step) / rate.substeps_per_second);
+}
+
+// The hinge that it hangs on leans on one.
+bool is_pushed_by_limit(const RigidScene& scene, const FreeMotion& motion) {
+    return motion.has_pivot && scene.joints[motion.pivot_joint].twist_push != 0;
 }
 
 // Neither motors nor springs are at work.
@@ -89,7 +114,7 @@ void begin_tick(const RigidScene& scene, FigureRange& figure, const MotionRate& 
         return;
     }
     const bool uneven = has_uneven_tree(scene, figure);
-    motion.has_pivot = figure.is_held && !uneven && find_pivot(scene, figure, rate, motion.pivot);
+    motion.has_pivot = figure.is_held && !uneven && find_pivot(scene, figure, rate, motion);
     motion.free = motion.has_pivot || !figure.is_held;
     motion.passive = motion.free && !motion.has_pivot && is_passive(scene, figure);
     motion.gravity_works = motion.passive && falls_unevenly(scene, figure);
@@ -113,7 +138,9 @@ public:
 
     void keep_momentum() {
         const FigureMomentum now(scene_, figure_);
-        const Vec3 spin = now.inertia().spin_of(figure_.motion.lost);
+        const FreeMotion& motion = figure_.motion;
+        const Vec3 spin = motion.has_axis ? now.inertia().spin_about(motion.axis, motion.lost)
+                                          : now.inertia().spin_of(motion.lost);
         if (spin == Vec3{0, 0, 0}) {
             return;
         }
@@ -121,8 +148,8 @@ public:
             set_speeds(body, body.velocity + turning(spin, lever_of(now, body)),
                        body.angular_velocity + spin);
         });
-        if (figure_.motion.passive) {
-            take_out_gain(figure_.motion.energy);
+        if (motion.passive) {
+            take_out_gain(motion.energy);
         }
     }
 
@@ -193,7 +220,7 @@ void FreeFigures::finish_substep(FigureRange& figure, std::uint32_t substep) con
     if (!motion.free) {
         return;
     }
-    if (is_pushed_from_outside(scene_, figure)) {
+    if (is_pushed_from_outside(scene_, figure) || is_pushed_by_limit(scene_, motion)) {
         motion.free = motion.each_substep;
         motion.lost = {};
         return;

@@ -14,8 +14,9 @@
 // are as 1 : 100, or light bodies hold heavy ones, that is done after each substep.
 //
 // What one ball joint holds at something that stands, a pendulum, a top or a chain, keeps its momentum about
-// that pivot alike, where none of its joints has limits or friction: only gravity turns it there. Its energy
-// needs no such care.
+// that pivot alike, where none of its joints has limits or friction: only gravity turns it there. A hinge
+// turns it otherwise, too, but not about its axis, as long as it leans on no limit: what hangs on one keeps
+// that part of its momentum. Its energy needs no such care.
 #pragma once
 
 #include "rigid/body_motion.h"
