@@ -16,8 +16,7 @@ public:
     explicit Coupling(lks_world& world) : world_(world), scene_(world.rigid) {
         const Vec3& g = world.gravity;
         const std::int64_t ticks = world.rate.ticks_per_second;
-        // Twice what gravity moves in a tick.
-        fall_ = sum_of_magnitudes(g) / ticks / ticks;
+        twice_fall_ = sum_of_magnitudes(g) / ticks / ticks;
     }
 
     void find() {
@@ -92,11 +91,18 @@ private:
         scene_.is_coupled[index] = 1;
     }
 
+    // Twice what gravity moves in a tick.
+    std::int64_t twice_fall(std::int64_t gravity_factor) const {
+        const std::int64_t factor = gravity_factor < 0 ? -gravity_factor : gravity_factor;
+        return fixed::multiply_shift(twice_fall_, factor, world_fraction_bits);
+    }
+
     // However it turns.
     Box box_of_body(const Body& body, const BodyDescription& description) const {
         const std::int64_t speed =
             body.is_awake() ? per_tick(sum_of_magnitudes(body.velocity), world_.rate) : 0;
-        const std::int64_t reach = description.radius + near_distance + 2 * speed + fall_;
+        const std::int64_t reach =
+            description.radius + near_distance + 2 * speed + twice_fall(description.gravity_factor);
         const auto low = [reach](std::int64_t p, std::int64_t q) {
             return saturating_subtract(std::min(p, q), reach);
         };
@@ -117,8 +123,8 @@ private:
         }
         const std::int64_t motion = world_from_coordinate(object.greatest_motion(*world_.kernels)) *
                                     static_cast<std::int64_t>(world_.rate.substeps);
-        const std::int64_t reach =
-            near_distance + fall_ + 2 * motion + world_from_coordinate(object.asset().particle_radius) + 1;
+        const std::int64_t reach = near_distance + twice_fall(object.gravity_factor) + 2 * motion +
+                                   world_from_coordinate(object.asset().particle_radius) + 1;
         const Vec3& o = object.origin;
         const Vec3 low{world_from_coordinate(bounds.low.x), world_from_coordinate(bounds.low.y),
                        world_from_coordinate(bounds.low.z)};
@@ -131,7 +137,7 @@ private:
 
     lks_world& world_;
     RigidScene& scene_;
-    std::int64_t fall_;
+    std::int64_t twice_fall_; // at a gravity factor of one
 };
 
 } // namespace
