@@ -237,6 +237,30 @@ TEST_CASE("what is at the other end of the world is not hit, but for a plane") {
     CHECK(std::abs(metres(hits[0].distance) - 2) < 2e-6);
 }
 
+TEST_CASE("a point far below a plane knows how deep it is, as far as a coordinate goes") {
+    lks_query query = lks_default_query();
+    query.kinds = LKS_HIT_BIT(LKS_HIT_COLLIDER);
+    const auto closest = [&](const World& world, const lks_vec3& point) {
+        lks_hit hit{};
+        std::uint32_t found = 0;
+        REQUIRE(lks_world_closest(world, &query, point, &hit, &found) == LKS_OK);
+        REQUIRE(found == 1);
+        return hit;
+    };
+    World level(world_def(60, 8));
+    add(level, LKS_SHAPE_PLANE, at(0, 0, 0));
+    const lks_hit below = closest(level, fixed(3, -8000000, 5));
+    CHECK(metres(below.distance) == -8000000);
+    CHECK(metres(below.point.y) == 0);
+    // Deeper than a coordinate goes.
+    World leaning(world_def(60, 8));
+    add(leaning, LKS_SHAPE_PLANE, turned(at(8388000, 8388000, 0), 0, 0, 1, 45));
+    const lks_hit deep = closest(leaning, fixed(8388000, -8388000, 0));
+    CHECK(metres(deep.distance) < -8384000);
+    CHECK(deep.point.y > -LKS_FIXED(8388000));
+    CHECK(deep.point.x < LKS_FIXED(8388000));
+}
+
 TEST_CASE("queries that make no sense are refused") {
     World world(world_def(60, 8));
     lks_query query = lks_default_query();
@@ -267,6 +291,9 @@ TEST_CASE("queries that make no sense are refused") {
     CHECK(lks_world_cast(world, &query, {}, {}, nullptr, 1, &count) == LKS_ERROR_NULL_ARGUMENT);
     CHECK(lks_world_overlap(world, &query, {}, &hit, 1, nullptr) == LKS_ERROR_NULL_ARGUMENT);
     CHECK(lks_world_closest(world, &query, {}, nullptr, &count) == LKS_ERROR_NULL_ARGUMENT);
+    check_sentence(world.message(), "hit, which");
+    CHECK(lks_world_closest(world, &query, {}, &hit, nullptr) == LKS_ERROR_NULL_ARGUMENT);
+    check_sentence(world.message(), "found");
     // A way of no length is a point.
     CHECK(lks_world_cast(world, &query, {}, {}, &hit, 1, &count) == LKS_OK);
     CHECK(count == 0);

@@ -34,8 +34,9 @@ typedef struct lks_hit {
     lks_collider_id collider; /* generation 0: none, and so on */
     lks_body_id body;
     lks_object_id object;
-    lks_fixed distance; /* metres: along the way of a cast; else to the surface, negative inside */
-    lks_vec3 point;     /* of the surface, in the world */
+    lks_fixed distance; /* metres: along the way of a cast; else to the surface, negative inside, down to
+                           -8,384 km */
+    lks_vec3 point;     /* of the surface, in the world, or as far towards it as a coordinate goes */
     lks_vec3 normal;    /* outwards, of length one */
 } lks_hit;
 

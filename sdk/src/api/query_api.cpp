@@ -30,16 +30,24 @@ lks_result check_place(const lks_world& world, const lks_vec3& place) {
                             out_of_range("query's place", place, "m", world_position_limit));
 }
 
-// LKS_OK, or reported. `room`: where the answer goes.
+// Of a function: where its answer goes, and how many there are.
+struct AnswerNames {
+    const char* function;
+    const char* room;
+    const char* count;
+};
+
+// LKS_OK, or reported.
 lks_result check_call(const lks_world* world, const lks_query* query, const void* room, bool room_wanted,
-                      const std::uint32_t* count, const char* function) {
+                      const std::uint32_t* count, const AnswerNames& names) {
     if (world == nullptr) {
         return LKS_ERROR_NULL_ARGUMENT;
     }
     if (query == nullptr || (room == nullptr && room_wanted) || count == nullptr) {
-        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument(function, query == nullptr   ? "query"
-                                                                            : count == nullptr ? "count"
-                                                                                               : "hits"));
+        return world->fail(LKS_ERROR_NULL_ARGUMENT,
+                           null_argument(names.function, query == nullptr   ? "query"
+                                                         : count == nullptr ? names.count
+                                                                            : names.room));
     }
     return check_query(*world, *query);
 }
@@ -58,7 +66,8 @@ lks_query lks_default_query(void) {
 
 lks_result lks_world_cast(const lks_world* world, const lks_query* query, lks_vec3 from, lks_vec3 to,
                           lks_hit* hits, uint32_t capacity, uint32_t* count) {
-    if (const lks_result result = check_call(world, query, hits, capacity > 0, count, "lks_world_cast");
+    if (const lks_result result =
+            check_call(world, query, hits, capacity > 0, count, {"lks_world_cast", "hits", "count"});
         result != LKS_OK) {
         return result;
     }
@@ -80,7 +89,8 @@ lks_result lks_world_cast(const lks_world* world, const lks_query* query, lks_ve
 
 lks_result lks_world_overlap(const lks_world* world, const lks_query* query, lks_vec3 centre, lks_hit* hits,
                              uint32_t capacity, uint32_t* count) {
-    if (const lks_result result = check_call(world, query, hits, capacity > 0, count, "lks_world_overlap");
+    if (const lks_result result =
+            check_call(world, query, hits, capacity > 0, count, {"lks_world_overlap", "hits", "count"});
         result != LKS_OK) {
         return result;
     }
@@ -95,7 +105,8 @@ lks_result lks_world_overlap(const lks_world* world, const lks_query* query, lks
 
 lks_result lks_world_closest(const lks_world* world, const lks_query* query, lks_vec3 point, lks_hit* hit,
                              uint32_t* found) {
-    if (const lks_result result = check_call(world, query, hit, true, found, "lks_world_closest");
+    if (const lks_result result =
+            check_call(world, query, hit, true, found, {"lks_world_closest", "hit", "found"});
         result != LKS_OK) {
         return result;
     }

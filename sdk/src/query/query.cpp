@@ -124,16 +124,19 @@ private:
     int halvings_;
 };
 
-// A plane may be anywhere: of it the height counts alone, and that is exact.
+// What is 2,000 km away is nowhere near.
+constexpr std::int64_t far_away = std::int64_t{1} << 61;
+// Nothing is deeper than the world is wide. A way is shorter than what is left to the end of the range.
+constexpr std::int64_t deepest = INT64_MAX - LKS_FIXED(4096);
+
+// A plane may be anywhere: of it the height counts alone.
 Vec3 to_local(const PlacedShape& placed, const Vec3& p) {
     if (placed.shape.kind == LKS_SHAPE_PLANE) {
-        constexpr std::int64_t most = std::int64_t{1} << 61;
         const std::int64_t height = world_height_above_plane(plane_normal(placed.axes), placed.centre, p);
-        return {0, std::clamp(height, -most, most), 0};
+        return {0, std::clamp(height, -deepest, far_away), 0};
     }
-    // What is 2,000 km away is nowhere near.
     Vec3 relative = saturating_subtract(p, placed.centre);
-    clamp_vector(relative, std::int64_t{1} << 61);
+    clamp_vector(relative, far_away);
     return fixed::rotate_transposed(placed.axes, relative);
 }
 
@@ -148,7 +151,8 @@ lks_vec3 behind(const Vec3& p, const lks_vec3& normal, std::int64_t length) {
     const auto part = [length](std::int64_t n) {
         return fixed::multiply_shift(n, length, world_fraction_bits);
     };
-    return {p.x - part(normal.x), p.y - part(normal.y), p.z - part(normal.z)};
+    const Vec3 place = saturating_subtract(p, {part(normal.x), part(normal.y), part(normal.z)});
+    return {place.x, place.y, place.z};
 }
 
 // Where no way is left to go, the shape is entered only if it is begun in.
