@@ -47,7 +47,8 @@ LKS_FORCE_INLINE Difference difference(const std::int64_t* x, const std::int64_t
 
 // All within [-2^30, 2^30).
 inline bool fit_differences(const Difference& d) {
-    return static_cast<std::uint64_t>((d.x + direction_one) | (d.y + direction_one) | (d.z + direction_one)) <
+    const auto lifted = [](std::int64_t c) { return wrapping_add(c, direction_one); };
+    return static_cast<std::uint64_t>(lifted(d.x) | lifted(d.y) | lifted(d.z)) <
            2 * std::uint64_t{direction_one};
 }
 
