@@ -30,7 +30,8 @@ public:
     CommandLine()
         : app_("Deterministic fixed-point physics: runs, renders and checks the demo scenes.", "lockstitch") {
         app_.require_subcommand(1);
-        app_.set_version_flag("--version", LOCKSTITCH_VERSION_TEXT);
+        app_.set_version_flag("--version", std::string(LOCKSTITCH_VERSION_TEXT) + ", solver version " +
+                                               std::to_string(lks_solver_version()));
         app_.footer("Examples:\n"
                     "  lockstitch list\n"
                     "  lockstitch run cloth_hang --ticks 300 --hash-every 60\n"
@@ -93,8 +94,9 @@ private:
             ->check(check_not_empty)
             ->excludes(rate);
         add_machine(*command, run_options_.machine);
-        command->add_option("--offset-km", run_options_.offset_km,
-                            "Move the scene this far along x, exactly");
+        command->add_option(
+            "--offset-km", run_options_.offset_km,
+            "Move the scene this far along x, exactly, as far as all of it stays within 8,388 km");
         command->add_option("--hash-every", run_options_.hash_every, "Also print every so many ticks");
         command->add_flag("--json", run_options_.json, "As JSON");
         command->footer("Examples:\n"

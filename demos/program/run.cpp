@@ -46,14 +46,23 @@ public:
         lks_world_counters counters{};
         lks_world_get_counters(world, &counters);
         if (options_.json) {
-            std::printf("],\n \"position_clamps\": %llu, \"speed_clamps\": %llu, \"target_clamps\": %llu}\n",
-                        static_cast<unsigned long long>(counters.position_clamps),
-                        static_cast<unsigned long long>(counters.speed_clamps),
-                        static_cast<unsigned long long>(counters.target_clamps));
+            std::printf("]");
+            print_count("position_clamps", counters.position_clamps);
+            print_count("speed_clamps", counters.speed_clamps);
+            print_count("target_clamps", counters.target_clamps);
+            print_count("world_edge_hits", counters.world_edge_hits);
+            print_count("dropped_ticks", counters.dropped_ticks);
+            print_count("lost_contacts", counters.lost_contacts);
+            print_count("lost_events", counters.lost_events);
+            std::printf("}\n");
         }
     }
 
 private:
+    static void print_count(const char* name, std::uint64_t count) {
+        std::printf(",\n \"%s\": %llu", name, static_cast<unsigned long long>(count));
+    }
+
     const RunOptions& options_;
     std::uint64_t last_;
     std::uint64_t printed_ = ~std::uint64_t{0};

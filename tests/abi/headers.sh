@@ -19,6 +19,23 @@ for compiler in "$@"; do
             count=$((count + 1))
         done
     done
+    # What is no integer would be cut to one without a word.
+    for number in 'LKS_FIXED(2)' 'LKS_FIXED_RATIO(1, 2)'; do
+        for language in c c++; do
+            $compiler -x $language $strict - <<<"#include <lockstitch/fixed.h>
+lks_fixed number = $number;"
+            count=$((count + 1))
+        done
+    done
+    for number in 'LKS_FIXED(0.5)' 'LKS_FIXED_RATIO(0.5, 2)' 'LKS_FIXED_RATIO(1, 2.0f)'; do
+        for language in c c++; do
+            if $compiler -x $language $strict - 2>/dev/null <<<"#include <lockstitch/fixed.h>
+lks_fixed number = $number;"; then
+                echo "$compiler takes $number as $language" >&2
+                exit 1
+            fi
+        done
+    done
 done
 [ "$count" -gt 0 ]
 echo "$count compilations"

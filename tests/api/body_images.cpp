@@ -136,15 +136,15 @@ TEST_CASE("bodies at the end of all positions, and pressed against it, have imag
     for (const std::uint32_t kind : {LKS_BODY_DYNAMIC, LKS_BODY_KINEMATIC}) {
         World world(def);
         lks_body_shape shape = ball_shape(0.5);
-        shape.transform.position.x = fixed(1); // its centre of mass lies beyond
+        shape.transform.position.x = fixed(1); // its frame lies a metre within
         lks_body_def body = lks_default_body_def();
         body.kind = kind;
-        const lks_body_id id = add_body(world, shape, fixed(edge, -edge, edge), body);
+        const lks_body_id id = add_body(world, shape, fixed(edge - 1, -edge, edge), body);
         check_loads(world, def, 3);
-        REQUIRE(lks_body_set_transform(world, id, at(edge, edge, -edge)) == LKS_OK);
+        REQUIRE(lks_body_set_transform(world, id, at(edge - 1, edge, -edge)) == LKS_OK);
         check_loads(world, def, 3);
         if (kind == LKS_BODY_KINEMATIC) {
-            REQUIRE(lks_body_move_to(world, id, at(edge, edge - 2, -edge)) == LKS_OK);
+            REQUIRE(lks_body_move_to(world, id, at(edge - 1, edge - 2, -edge)) == LKS_OK);
             check_loads(world, def, 3);
         }
     }

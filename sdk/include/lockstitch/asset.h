@@ -142,7 +142,7 @@ typedef struct lks_rope_def {
     double linear_density;       /* kg/m, 1e-15 .. 1e13 */
     const double* vertex_masses; /* kg, one a point */
     lks_distance_material stretch;
-    lks_distance_material bend; /* needs at least 2 segments */
+    lks_distance_material bend; /* of a rope of one segment: none */
     double particle_radius;     /* metres, 0 .. 1 */
     double friction;            /* factor on the collider's friction, 0 .. 100 */
     lks_allocator allocator;

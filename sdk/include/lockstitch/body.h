@@ -96,12 +96,14 @@ LKS_API lks_result lks_body_set_velocity(lks_world* world, lks_body_id body, lks
  * changes nothing. Beyond the limits the speeds are clamped. */
 LKS_API lks_result lks_body_apply_impulse(lks_world* world, lks_body_id body, lks_vec3 impulse,
                                           lks_vec3 point);
-/* Where a kinematic body is to be at the end of the next tick; it gets there evenly over the substeps and
- * rests there until the next call. At most 100 m and 90° a tick. LKS_ERROR_UNSUPPORTED for a dynamic body. */
+/* Where a kinematic body is to be at the end of the next tick; it gets there evenly over the substeps (a turn
+ * of 90° within 10 %, of 10° within 0.1 %) and rests there until the next call. At most 100 m and 90° a
+ * tick. LKS_ERROR_UNSUPPORTED for a dynamic body. */
 LKS_API lks_result lks_body_move_to(lks_world* world, lks_body_id body, lks_transform target);
 
-/* An lks_body_kind. What becomes dynamic keeps the velocity that it was moved with; what becomes kinematic
- * rests where it is until it is moved. Joints and attachments stay. */
+/* An lks_body_kind. What becomes dynamic keeps the velocity that it was moved with in the last tick, within
+ * the speed limit and the spin limit; what becomes kinematic rests where it is until it is moved. Joints and
+ * attachments stay. */
 LKS_API lks_result lks_body_set_kind(lks_world* world, lks_body_id body, uint32_t kind);
 /* LKS_BODY_DYNAMIC for a stale id. */
 LKS_API uint32_t lks_body_get_kind(const lks_world* world, lks_body_id body);

@@ -2,9 +2,10 @@
  *
  * Events are no part of the state and change nothing of it: a world that records them has the same bits as
  * one that does not, and a world that was rolled back gives the same ones again (but for who woke between
- * the tick and the save). They come in a canonical
- * order: by tick, within it contacts by their bodies' indices, then particles on bodies by the indices of
- * object and body, broken joints, broken attachments, and sleep.
+ * the tick and the save). They come in a canonical order: by tick, within it contacts by their bodies'
+ * indices, then particles on bodies by the indices of object and body, broken joints, broken attachments, and
+ * sleep. Of a contact's two sides one is dynamic: kinematic bodies and colliders do not touch each other, so
+ * that who is moved as a kinematic body presses no plate but a dynamic one.
  */
 #ifndef LOCKSTITCH_EVENT_H
 #define LOCKSTITCH_EVENT_H

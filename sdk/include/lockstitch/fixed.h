@@ -18,11 +18,13 @@ typedef int64_t lks_fixed; /* Q24.40 */
 #define LKS_FIXED_FRACTION_BITS 40
 #define LKS_FIXED_ONE ((lks_fixed)1 << LKS_FIXED_FRACTION_BITS)
 
+/* An integer; what is none, as 0.5, does not compile. */
+#define LKS_INTEGER(n) ((lks_fixed)(n) + 0 * (lks_fixed)sizeof((n)&0))
 /* Whole metres (or m/s, or anything); n from -8388607 to 8388607. */
-#define LKS_FIXED(n) ((lks_fixed)(n)*LKS_FIXED_ONE)
+#define LKS_FIXED(n) (LKS_INTEGER(n) * LKS_FIXED_ONE)
 /* n / d in integers, rounded towards zero; n * 2^40 must fit into 64 bits: LKS_FIXED_RATIO(5, 100) is 5 cm.
  */
-#define LKS_FIXED_RATIO(n, d) ((lks_fixed)(n)*LKS_FIXED_ONE / (lks_fixed)(d))
+#define LKS_FIXED_RATIO(n, d) (LKS_INTEGER(n) * LKS_FIXED_ONE / LKS_INTEGER(d))
 
 typedef struct lks_vec3 {
     lks_fixed x, y, z;

@@ -186,10 +186,11 @@ lks_result lks_body_set_transform(lks_world* world, lks_body_id body, lks_transf
     if (const lks_result result = require_body(world, body); result != LKS_OK) {
         return result;
     }
-    if (const lks_result result = check_body_transform(*world, transform); result != LKS_OK) {
+    RigidScene& scene = world->rigid;
+    if (const lks_result result = check_place(*world, scene.descriptions[body.index], transform);
+        result != LKS_OK) {
         return result;
     }
-    RigidScene& scene = world->rigid;
     wake_neighbours(scene, body.index);
     wake_jointed(scene, body.index);
     wake(scene.bodies[body.index]);
@@ -262,7 +263,8 @@ lks_result lks_body_move_to(lks_world* world, lks_body_id body, lks_transform ta
     if (const lks_result result = require_body(world, body); result != LKS_OK) {
         return result;
     }
-    if (const lks_result result = check_body_transform(*world, target); result != LKS_OK) {
+    if (const lks_result result = check_place(*world, world->rigid.descriptions[body.index], target);
+        result != LKS_OK) {
         return result;
     }
     Body& found = world->rigid.bodies[body.index];
@@ -287,9 +289,8 @@ lks_result lks_body_set_kind(lks_world* world, lks_body_id body, uint32_t kind) 
     if (const lks_result result = require_body(world, body); result != LKS_OK) {
         return result;
     }
-    if (kind > LKS_BODY_KINEMATIC) {
-        return world->fail(LKS_ERROR_INVALID_ARGUMENT,
-                           Sentence() << "The body's kind is " << kind << "; it must be 0 or 1.");
+    if (const lks_result result = check_body_kind(*world, kind); result != LKS_OK) {
+        return result;
     }
     if (world->rigid.descriptions[body.index].kind != kind) {
         change_kind(*world, body.index, kind);

@@ -2,6 +2,7 @@
 
 #include "api/collider_checks.h"
 #include "rigid/body_motion.h"
+#include "rigid/make_body.h"
 
 namespace lks {
 namespace {
@@ -69,7 +70,7 @@ lks_result check_shapes(const lks_world& world, const lks_body_def& def) {
 
 } // namespace
 
-lks_result check_body_transform(const lks_world& world, const lks_transform& transform) {
+lks_result check_frame(const lks_world& world, const lks_transform& transform) {
     if (!within(transform.position, world_position_limit)) {
         return world.fail(LKS_ERROR_INVALID_ARGUMENT,
                           out_of_range("body's position", transform.position, "m", world_position_limit));
@@ -77,14 +78,33 @@ lks_result check_body_transform(const lks_world& world, const lks_transform& tra
     return check_rotation(world, transform.rotation);
 }
 
+lks_result check_place(const lks_world& world, const BodyDescription& description,
+                       const lks_transform& transform) {
+    if (const lks_result result = check_rotation(world, transform.rotation); result != LKS_OK) {
+        return result;
+    }
+    Body there{};
+    place_body(there, description, to_vec3(transform.position),
+               fixed::normalise(to_rotation(transform.rotation)));
+    const lks_vec3 centre = from_vec3(there.position);
+    return within(centre, world_position_limit)
+               ? LKS_OK
+               : world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                            out_of_range("body's centre of mass", centre, "m", world_position_limit));
+}
+
+lks_result check_body_kind(const lks_world& world, std::uint32_t kind) {
+    return kind <= LKS_BODY_KINEMATIC
+               ? LKS_OK
+               : world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                            Sentence() << "The body's kind is " << kind << "; it must be 0 or 1.");
+}
+
 lks_result check_body_def(const lks_world& world, const lks_body_def& def) {
     if (def.kind > LKS_BODY_KINEMATIC || def.never_sleeps > 1) {
         return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "The body's kind is " << def.kind
                                                                  << " and never_sleeps " << def.never_sleeps
                                                                  << "; both are 0 or 1.");
-    }
-    if (const lks_result result = check_body_transform(world, def.transform); result != LKS_OK) {
-        return result;
     }
     if (const lks_result result = check_shapes(world, def); result != LKS_OK) {
         return result;
@@ -95,14 +115,18 @@ lks_result check_body_def(const lks_world& world, const lks_body_def& def) {
     }
     // A microgram keeps every inertia within range.
     const lks_fixed least_mass = def.mass == 0 ? 0 : LKS_FIXED_RATIO(1, 1000000);
-    return check_numbers(world,
-                         {Number{"body's mass", " kg", def.mass, least_mass, LKS_FIXED(1000000)},
-                          Number{"gravity factor", "", def.gravity_factor, -LKS_FIXED(100), LKS_FIXED(100)},
-                          Number{"linear damping", " 1/s", def.linear_damping, 0, LKS_FIXED(1000)},
-                          Number{"angular damping", " 1/s", def.angular_damping, 0, LKS_FIXED(1000)},
-                          Number{"static friction", "", def.static_friction, 0, LKS_FIXED(100)},
-                          Number{"dynamic friction", "", def.dynamic_friction, 0, def.static_friction},
-                          Number{"restitution", "", def.restitution, 0, LKS_FIXED_ONE}});
+    if (const lks_result result = check_numbers(
+            world, {Number{"body's mass", " kg", def.mass, least_mass, LKS_FIXED(1000000)},
+                    Number{"gravity factor", "", def.gravity_factor, -LKS_FIXED(100), LKS_FIXED(100)},
+                    Number{"linear damping", " 1/s", def.linear_damping, 0, LKS_FIXED(1000)},
+                    Number{"angular damping", " 1/s", def.angular_damping, 0, LKS_FIXED(1000)},
+                    Number{"static friction", "", def.static_friction, 0, LKS_FIXED(100)},
+                    Number{"dynamic friction", "", def.dynamic_friction, 0, def.static_friction},
+                    Number{"restitution", "", def.restitution, 0, LKS_FIXED_ONE}});
+        result != LKS_OK) {
+        return result;
+    }
+    return check_place(world, describe_body(plain_definition(def)), def.transform);
 }
 
 lks_result check_body_velocities(const lks_world& world, const lks_vec3& velocity, const lks_vec3& spin) {

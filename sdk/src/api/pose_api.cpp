@@ -8,9 +8,9 @@
 #include "api/ragdoll_checks.h"
 #include "api/ragdoll_scale.h"
 #include "collide/saturation.h"
-#include "fixed/arc_tangent.h"
 #include "rigid/body_motion.h"
 #include "rigid/make_body.h"
+#include "rigid/tick_spin.h"
 
 using namespace lks;
 
@@ -54,30 +54,12 @@ lks_result require_bodies(const lks_world* world, const lks_body_id* bodies, std
     });
 }
 
-lks_result check_pose(const lks_world& world, const lks_transform* pose, std::uint32_t count,
-                      const char* when = "") {
-    return check_bones(world, count, when,
-                       [&](std::uint32_t i) { return check_body_transform(world, pose[i]); });
-}
-
-// tan(angle)/angle (World; up to 63°, to 10^-7 of it), by the continued fraction of the tangent.
-std::int64_t tangent_over_angle(std::int64_t angle) {
-    constexpr std::int64_t one = std::int64_t{1} << world_fraction_bits;
-    const std::int64_t square = fixed::multiply_shift(angle, angle, world_fraction_bits);
-    std::int64_t level = 11 * one;
-    for (int odd = 9; odd > 0; odd -= 2) {
-        level = odd * one - fixed::multiply_divide(square, one, level);
-    }
-    return fixed::multiply_divide(one, one, level);
-}
-
-// n times the half turn of one of n alike substeps, over the half turn of them all: World, of |half| (Turn).
-std::int64_t in_substeps(std::uint64_t half, std::int64_t n) {
-    constexpr int bits = 28;
-    const std::int64_t angle = fixed::angle_of(static_cast<std::int64_t>(half >> (turn_fraction_bits - bits)),
-                                               std::int64_t{1} << bits);
-    return fixed::multiply_divide(tangent_over_angle(angle / n), std::int64_t{1} << world_fraction_bits,
-                                  tangent_over_angle(angle));
+// Where these are to be.
+lks_result check_pose(const lks_world& world, const lks_body_id* bodies, const lks_transform* pose,
+                      std::uint32_t count, const char* when = "") {
+    return check_bones(world, count, when, [&](std::uint32_t i) {
+        return check_place(world, world.rigid.descriptions[bodies[i].index], pose[i]);
+    });
 }
 
 // As fast as it takes from one transform to the other in a tick.
@@ -91,15 +73,7 @@ void set_velocity(lks_world& world, Body& body, const BodyDescription& descripti
     const auto speed = [ticks](std::int64_t way) { return fixed::multiply_shift(way, ticks, 0); };
     const fixed::Vec3 way = saturating_subtract(to.position, from.position);
     body.velocity = {speed(way.x), speed(way.y), speed(way.z)};
-    // Half turns, Turn to radians, World. A body turns by twice the arc tangent of its half turn in a
-    // substep.
-    const fixed::Vec3 half = half_turn_between(from.orientation, to.orientation);
-    const std::int64_t factor = in_substeps(fixed::length(half), world.rate.substeps);
-    const auto spin = [&](std::int64_t c) {
-        const std::int64_t once = c >> (turn_fraction_bits - world_fraction_bits - 1);
-        return fixed::multiply_shift(fixed::multiply_shift(once, factor, world_fraction_bits), ticks, 0);
-    };
-    body.angular_velocity = {spin(half.x), spin(half.y), spin(half.z)};
+    body.angular_velocity = tick_spin(from.orientation, to.orientation, world.rate);
     clamp_vector(body.velocity, body_speed_limit(world.rate));
     clamp_vector(body.angular_velocity, body_spin_limit(world.rate));
 }
@@ -154,7 +128,8 @@ lks_result check_drive(const lks_world& world, const lks_ragdoll_def& def, const
     if (result != LKS_OK) {
         return result;
     }
-    return check_pose(world, pose, def.bone_count);
+    return check_bones(world, def.bone_count, "",
+                       [&](std::uint32_t i) { return check_frame(world, pose[i]); });
 }
 
 } // namespace
@@ -173,9 +148,10 @@ lks_result lks_ragdoll_pose(const lks_world* world, const lks_body_id* bodies, u
 lks_result lks_ragdoll_set_pose(lks_world* world, const lks_body_id* bodies, uint32_t count,
                                 const lks_transform* pose, const lks_transform* before) {
     lks_result result = require_bodies(world, bodies, count, pose, "lks_ragdoll_set_pose");
-    result = result == LKS_OK ? check_pose(*world, pose, count) : result;
-    result =
-        result == LKS_OK && before != nullptr ? check_pose(*world, before, count, ", a tick before") : result;
+    result = result == LKS_OK ? check_pose(*world, bodies, pose, count) : result;
+    result = result == LKS_OK && before != nullptr
+                 ? check_pose(*world, bodies, before, count, ", a tick before")
+                 : result;
     for (std::uint32_t i = 0; result == LKS_OK && i < count; ++i) {
         lks_body_set_transform(world, bodies[i], pose[i]);
         Body& body = world->rigid.bodies[bodies[i].index];
@@ -217,6 +193,7 @@ lks_result lks_ragdoll_move_to(lks_world* world, const lks_body_id* bodies, uint
 
 lks_result lks_ragdoll_set_kind(lks_world* world, const lks_body_id* bodies, uint32_t count, uint32_t kind) {
     lks_result result = require_bodies(world, bodies, count, bodies, "lks_ragdoll_set_kind");
+    result = result == LKS_OK ? check_body_kind(*world, kind) : result;
     for (std::uint32_t i = 0; result == LKS_OK && i < count; ++i) {
         result = lks_body_set_kind(world, bodies[i], kind);
     }

@@ -7,6 +7,7 @@
 #include "api/joint_checks.h"
 #include "api/ragdoll_checks.h"
 #include "api/ragdoll_scale.h"
+#include "collide/saturation.h"
 #include "fixed/formats.h"
 
 using namespace lks;
@@ -25,7 +26,7 @@ struct Placement {
           scale(def.scale) {}
 
     lks_transform place(const lks_transform& local) const {
-        const fixed::Vec3 p = position + fixed::rotate(matrix, scaled(local.position, scale));
+        const fixed::Vec3 p = saturating_add(position, fixed::rotate(matrix, scaled(local.position, scale)));
         const fixed::Rotation q =
             fixed::normalise(fixed::multiply(rotation, fixed::normalise(to_rotation(local.rotation))));
         return {from_vec3(p), {q.x, q.y, q.z, q.w}};
@@ -136,7 +137,7 @@ lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
     if (const lks_result result = check_bone_tree(world, def); result != LKS_OK) {
         return result;
     }
-    if (const lks_result result = check_body_transform(world, def.transform); result != LKS_OK) {
+    if (const lks_result result = check_frame(world, def.transform); result != LKS_OK) {
         return result;
     }
     for (std::uint32_t i = 0; i < def.bone_count; ++i) {

@@ -148,8 +148,7 @@ void place_body(Body& body, const BodyDescription& description, const Vec3& posi
                 const fixed::Rotation& rotation) {
     body.orientation = widen(rotation);
     body.follow_orientation();
-    body.position = position + fixed::rotate(body.rotation, description.centre);
-    clamp_vector(body.position, world_position_limit);
+    body.position = saturating_add(position, fixed::rotate(body.rotation, description.centre));
     body.target_position = body.position;
     body.target_orientation = body.orientation;
     body.rest_position = body.position;
@@ -159,7 +158,8 @@ void place_body(Body& body, const BodyDescription& description, const Vec3& posi
 }
 
 Vec3 frame_position(const Body& body, const BodyDescription& description) {
-    return body.position - fixed::rotate(fixed::to_matrix(narrow(body.orientation)), description.centre);
+    return saturating_subtract(body.position,
+                               fixed::rotate(fixed::to_matrix(narrow(body.orientation)), description.centre));
 }
 
 Body make_body(const BodyDescription& description, const lks_body_def& def) {

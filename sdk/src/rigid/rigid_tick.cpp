@@ -15,6 +15,7 @@
 #include "rigid/rigid_substep.h"
 #include "rigid/rope_loads.h"
 #include "rigid/sleep.h"
+#include "rigid/tick_spin.h"
 #include "rigid/wide_trees.h"
 #include "solver/object_tick.h"
 #include "solver/world.h"
@@ -148,6 +149,7 @@ private:
         wake_for_particles();
         for (Body& body : scene_.bodies) {
             if (!body.is_dynamic()) {
+                keep_mean_spin(body);
                 body.target_orientation = body.orientation;
             } else if (body.is_awake()) {
                 // What undid errors has left this behind.
@@ -157,6 +159,14 @@ private:
             }
         }
         fall_asleep(world_);
+    }
+
+    // What it keeps if it becomes dynamic: not that of its last substep (fixed::interpolate).
+    void keep_mean_spin(Body& body) const {
+        if (!(body.orientation == body.tick_orientation)) {
+            body.angular_velocity = tick_spin(body.tick_orientation, body.orientation, world_.rate);
+            clamp_vector(body.angular_velocity, rate_.spin_limit);
+        }
     }
 
     // Axes on which it is beyond the edge of the world, or there and on its way out.
