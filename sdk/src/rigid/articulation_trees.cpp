@@ -287,11 +287,12 @@ private:
     }
 
     // The joints of the tree that begins there, where something holds it or one of them is to what does not
-    // move.
+    // move. Where several are, as of a bridge, hinges and fixed joints hold the same twice: their rows depend
+    // on each other, and solved together they would throw the bridge apart.
     bool mark_held(std::size_t joint, bool held) {
-        for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
-            held = held || !scene_.tree_joints[i].child_moves;
-        }
+        const auto holds = std::count_if(scene_.tree_joints.begin() + joint, scene_.tree_joints.end(),
+                                         [](const ArticulatedJoint& at) { return !at.child_moves; });
+        held = holds == 1 || (held && holds == 0);
         for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
             scene_.joints[scene_.tree_joints[i].joint].in_held_tree = held;
         }

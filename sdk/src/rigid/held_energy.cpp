@@ -108,6 +108,11 @@ void slow_down(Object& object, std::int64_t factor) {
     }
 }
 
+// A rigid one only pushes where a substep has moved it; what it has to do without speed it does elsewhere.
+bool is_soft_distance(const Joint& joint) {
+    return is_distance(joint) && joint.constants.points.softness != 0;
+}
+
 class HeldFigure {
 public:
     HeldFigure(RigidScene& scene, const FigureRange& range, const MotionRate& rate)
@@ -257,7 +262,7 @@ private:
         for_each(Part::joint, [&](std::uint32_t i) {
             const Joint& joint = scene_.joints[i];
             within = within && joint.constants.limits.softness == 0 &&
-                     (range_.is_loaded ? joint.in_tree : joint.in_held_tree || !is_distance(joint));
+                     (range_.is_loaded ? joint.in_tree : !is_soft_distance(joint));
         });
         for (const Part kind : {Part::contact, Part::shared_contact}) {
             for_each(kind, [&](std::uint32_t i) {

@@ -442,7 +442,8 @@ void RigidSubstep::mark_exceeded_limits() {
     for (const FigureRange& figure : scene_.figure_ranges) {
         if (figure.is_held || figure.has_held_tree || figure.is_loaded) {
             for_each_joint(figure, [&](const Joint& joint, const Body& a, const Body& b) {
-                const std::int64_t turned = joint.in_held_tree ? turned_away(joint, a, b, true) : 0;
+                const std::int64_t turned =
+                    joint.in_held_tree ? turned_away(joint, a, b, !figure.is_held) : 0;
                 if (turned > far_turned || exceeded_limits(joint, a, b, true) > far_turned) {
                     mark_strained(name_of(scene_, figure));
                 }
@@ -548,14 +549,27 @@ void RigidSubstep::collide_objects(std::uint32_t substep) {
     }
 }
 
+// By more than a 64th of a radian a substep, about any axis.
+bool RigidSubstep::turns_fast(std::uint32_t index) const {
+    const Body& body = scene_.bodies[index];
+    const std::int64_t most =
+        (static_cast<std::int64_t>(rate_.substeps_per_second) << world_fraction_bits) / 64;
+    const auto is_more = [most](std::int64_t spin) { return spin > most || spin < -most; };
+    const fixed::Vec3& spin = body.angular_velocity;
+    return body.is_awake() && (is_more(spin.x) || is_more(spin.y) || is_more(spin.z));
+}
+
 // Where light bones may have turned further than a substep follows, where joints of what is held are swept
-// one by one, as soft ones are, and at the narrow ends of ellipses, about which limits turn fast.
+// one by one, as soft ones are, and where it turns fast against limits, or at the narrow ends of ellipses,
+// about which limits turn fast.
 bool RigidSubstep::may_gain(const FigureRange& figure) const {
     bool loose = false;
     if (figure.is_held) {
         for_each_part(scene_, figure, Part::joint, [&](std::uint32_t i) {
-            const Joint& joint = scene_.joints[i];
-            loose = loose || has_spring(joint.constants) || has_ellipse(joint.constants);
+            const JointDescription& d = scene_.joints[i].description;
+            const JointConstants& c = scene_.joints[i].constants;
+            loose = loose || has_spring(c) || has_ellipse(c) ||
+                    ((c.swing_limited || c.twist_limited) && (turns_fast(d.body_a) || turns_fast(d.body_b)));
         });
     }
     return has_uneven_tree(scene_, figure) || loose || figure.relieved;

@@ -65,6 +65,7 @@ private:
     void mark_hard_impacts();
     void mark_exceeded_limits();
     bool find_strained();
+    bool turns_fast(std::uint32_t body) const;
     bool may_gain(const FigureRange& figure) const;
     ContactSpeeds predicted_speeds(const Contact& contact);
     void restore_speeds();
