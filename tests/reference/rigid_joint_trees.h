@@ -33,7 +33,7 @@ public:
     explicit JointTrees(RigidParts<Scalar>& parts) : bodies_(parts.bodies), joints_(parts.joints) {}
 
     // Soft joints and distances are left out, and so are those that close loops and those of trees that
-    // particles are attached to.
+    // particles are attached to and no joint holds. What is held at several places has no held tree.
     void find() {
         std::vector<std::size_t> roots(bodies_.size());
         std::iota(roots.begin(), roots.end(), std::size_t{0});
@@ -54,15 +54,16 @@ public:
             bool attached = false;
             for_each_body(tree,
                           [&](const Body& body) { attached = attached || (body.moves && body.attached); });
-            if (attached) {
+            const auto holds = std::count_if(tree.joints.begin(), tree.joints.end(), [&](std::size_t i) {
+                return bodies_[joints_[i].a].moves != bodies_[joints_[i].b].moves;
+            });
+            if (attached && holds == 0) {
                 for (const std::size_t i : tree.joints) {
                     joints_[i].in_tree = false;
                 }
                 continue;
             }
-            for (const std::size_t i : tree.joints) {
-                tree.held = tree.held || bodies_[joints_[i].a].moves != bodies_[joints_[i].b].moves;
-            }
+            tree.held = holds == 1;
             for (const std::size_t i : tree.joints) {
                 joints_[i].in_held_tree = tree.held;
             }

@@ -193,8 +193,9 @@ private:
     }
 
     // Bodies and joints from the root on. What does not move is a leaf. Trees with attachments are left to
-    // the sweeps: an attachment begins from nothing and would find the bodies in free fall. What hangs on a
-    // rope that bears it is pushed as a whole, unless its masses are uneven: no rope bears those.
+    // the sweeps, unless a joint holds them: an attachment begins from nothing and would find the bodies in
+    // free fall. What hangs on a rope that bears it is pushed as a whole, unless its masses are uneven: no
+    // rope bears those.
     void walk(std::uint32_t root) {
         const auto begin = static_cast<std::uint32_t>(scene_.tree_bodies.size());
         const auto begin_joints = static_cast<std::uint32_t>(scene_.tree_joints.size());
@@ -214,7 +215,7 @@ private:
             anchored = anchored || is_anchored(scene_.articulated[parent]);
             add_joints(parent);
         }
-        if (attached) {
+        if (attached && count_holds(begin_joints) == 0) {
             drop_from(begin, begin_joints);
             return;
         }
@@ -244,6 +245,12 @@ private:
                                     loaded, uneven, find_doublings(begin_joints)});
         any_held_ = any_held_ || held;
         any_uneven_ = any_uneven_ || uneven;
+    }
+
+    // Joints of the tree that begins there to what does not move.
+    std::ptrdiff_t count_holds(std::size_t joint) const {
+        return std::count_if(scene_.tree_joints.begin() + joint, scene_.tree_joints.end(),
+                             [](const ArticulatedJoint& at) { return !at.child_moves; });
     }
 
     // Of the joints of the tree that begins there.
@@ -290,8 +297,7 @@ private:
     // move. Where several are, as of a bridge, hinges and fixed joints hold the same twice: their rows depend
     // on each other, and solved together they would throw the bridge apart.
     bool mark_held(std::size_t joint, bool held) {
-        const auto holds = std::count_if(scene_.tree_joints.begin() + joint, scene_.tree_joints.end(),
-                                         [](const ArticulatedJoint& at) { return !at.child_moves; });
+        const std::ptrdiff_t holds = count_holds(joint);
         held = holds == 1 || (held && holds == 0);
         for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
             scene_.joints[scene_.tree_joints[i].joint].in_held_tree = held;
