@@ -7,6 +7,7 @@
 
 #include "support/bodies.h"
 #include "support/builders.h"
+#include "support/sanitised.h"
 
 using namespace support;
 
@@ -90,7 +91,7 @@ TEST_CASE("bridges of bars that are thrown about stay together and gain nothing"
     for (const std::uint32_t substeps : {2u, 4u, 8u}) {
         for (const bool balls : {false, true}) {
             for (int count = 3; count <= 6; ++count) {
-                for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+                for (std::uint64_t seed = 1; seed <= (sanitised ? 1 : 8); ++seed) {
                     Bridge bridge(count, substeps, seed * 100 + static_cast<std::uint64_t>(count), balls);
                     bridge.run(300);
                     CAPTURE(substeps);

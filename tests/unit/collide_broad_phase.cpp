@@ -1,5 +1,6 @@
 // The broad phase loses no contact, rejects what is clearly away, and is defined for all numbers.
 #include "collide_support.h"
+#include "support/sanitised.h"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +11,10 @@ using lks::Shape;
 using lks::fixed::Vec3;
 
 namespace {
+
+constexpr int samples(int all) {
+    return support::sanitised ? all / 10 : all;
+}
 
 ColliderState random_collider(Dice& dice, Real reach) {
     const Shape shapes[] = {plane(), sphere(dice.between(0.01L, 2)),
@@ -31,7 +36,7 @@ ColliderState random_collider(Dice& dice, Real reach) {
 TEST_CASE("collide: whatever a substep pushes was a candidate of its tick") {
     Dice dice(1);
     int pushed = 0, rejected = 0;
-    for (int sample = 0; sample < 100000; ++sample) {
+    for (int sample = 0; sample < samples(100000); ++sample) {
         const ColliderState collider = random_collider(dice, 4);
         // With a large turn in one substep, the straight way that stands for the particle's arc may cut a
         // corner.
@@ -47,14 +52,14 @@ TEST_CASE("collide: whatever a substep pushes was a candidate of its tick") {
         rejected += candidate ? 0 : 1;
         REQUIRE((candidate || !moved));
     }
-    CHECK(pushed > 10000);
-    CHECK(rejected > 10000);
+    CHECK(pushed > samples(10000));
+    CHECK(rejected > samples(10000));
 }
 
 TEST_CASE("collide: the frame's box rejects only what the full test rejects") {
     Dice dice(2);
     int pushed = 0, skipped = 0, swept = 0;
-    for (int sample = 0; sample < 200000; ++sample) {
+    for (int sample = 0; sample < samples(200000); ++sample) {
         ColliderState collider = random_collider(dice, 3);
         const bool blade = sample % 2 == 0;
         if (blade) {
@@ -91,9 +96,9 @@ TEST_CASE("collide: the frame's box rejects only what the full test rejects") {
         REQUIRE(plain.position == particle.position);
         REQUIRE(plain.start == particle.start);
     }
-    CHECK(pushed > 1500);
-    CHECK(swept > 1500);
-    CHECK(skipped > 5000);
+    CHECK(pushed > samples(1500));
+    CHECK(swept > samples(1500));
+    CHECK(skipped > samples(5000));
 }
 
 TEST_CASE("collide: colliders that are away are no candidates") {
@@ -146,7 +151,7 @@ TEST_CASE("collide: any 64-bit positions and bounds are defined, and end within 
         INT64_MIN, INT64_MAX, std::int64_t{1} << 62, -(std::int64_t{1} << 62), lks::coordinate_limit,
         0,         1,         -lks::coordinate_limit};
     const auto any = [&] { return dice.below(2) == 0 ? edges[dice.below(8)] : dice.any() >> dice.below(63); };
-    for (int sample = 0; sample < 300000; ++sample) {
+    for (int sample = 0; sample < samples(300000); ++sample) {
         ColliderState collider = random_collider(dice, dice.below(2) == 0 ? 64 : 8e6L);
         if (dice.below(4) == 0) {
             collider.shape = dice.below(2) == 0 ? capsule(30, 30) : box(30, 30, 30);

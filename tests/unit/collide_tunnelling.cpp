@@ -1,6 +1,7 @@
 // Nothing gets through: thousands of random shots at up to 100 m/s, against plates, balls and everything
 // else, at rest and moving, each substep judged by a reference in long double.
 #include "collide_support.h"
+#include "support/sanitised.h"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +11,10 @@ using lks::ContactFrame;
 using lks::Shape;
 
 namespace {
+
+constexpr int shots_of(int all) {
+    return support::sanitised ? all / 10 : all;
+}
 
 constexpr Real tolerance = 1e-6L;
 
@@ -129,12 +134,13 @@ Verdict shoot_many(std::uint64_t seed, int shots, const Range& range, const Shap
 
 } // namespace
 
-TEST_CASE("collide: shots at resting shapes end outside, and free ways stay as they are") {
+TEST_CASE("collide: shots at resting shapes end outside, and free ways stay as they are" *
+          doctest::skip(support::sanitised)) {
     check(shoot_many(1, 4000, {0, 0, 0, 1}), 3000);
     check(shoot_many(2, 4000, {0, 0, 0.1L, 1.2L}), 3000);
 }
 
-TEST_CASE("collide: so do shots at a 5 cm plate and a 10 cm ball") {
+TEST_CASE("collide: so do shots at a 5 cm plate and a 10 cm ball" * doctest::skip(support::sanitised)) {
     const Shape plate = box(1, 0.025L, 1);
     const Shape ball = sphere(0.05L);
     check(shoot_many(3, 3000, {0, 0, 0, 1}, &plate), 1500);
@@ -153,7 +159,7 @@ TEST_CASE("collide: so do shots at shapes that move and turn") {
 TEST_CASE("collide: grazing shots along faces, edges and corners are kept outside") {
     Dice dice(21);
     Verdict verdict;
-    for (int shot = 0; shot < 6000; ++shot) {
+    for (int shot = 0; shot < shots_of(6000); ++shot) {
         const Shape shape = random_solid(dice);
         const Point size = size_of(shape);
         const auto substeps = 1 + dice.below(20);
@@ -180,13 +186,13 @@ TEST_CASE("collide: grazing shots along faces, edges and corners are kept outsid
             judge(particle, particle.frame(collider, 1, 1), verdict);
         }
     }
-    check(verdict, 1000);
+    check(verdict, shots_of(1000));
 }
 
 TEST_CASE("collide: a particle stays on its side of a large plate that comes and turns at it") {
     Dice dice(31);
     int hits = 0;
-    for (int shot = 0; shot < 3000; ++shot) {
+    for (int shot = 0; shot < shots_of(3000); ++shot) {
         const auto substeps = 1 + dice.below(20);
         const Real thickness = 0.025L;
         ColliderState collider = resting(box(30, thickness, 30), dice.in_cube(1), dice.rotation(360));
@@ -218,12 +224,12 @@ TEST_CASE("collide: a particle stays on its side of a large plate that comes and
             finish_motion(collider);
         }
     }
-    CHECK(hits > 5000);
+    CHECK(hits > shots_of(5000));
 }
 
 TEST_CASE("collide: a particle that is resting on a plate is not shot through it") {
     Dice dice(41);
-    for (int shot = 0; shot < 2000; ++shot) {
+    for (int shot = 0; shot < shots_of(2000); ++shot) {
         const ColliderState collider = resting(box(5, 0.025L, 5), {}, dice.rotation(360));
         const lks::fixed::Matrix3 matrix = lks::fixed::to_matrix(collider.rotation);
         // On the surface, give or take what rounding or the tolerance of a hit may leave.
@@ -241,7 +247,7 @@ TEST_CASE("collide: a particle that is resting on a plate is not shot through it
 TEST_CASE("collide: planes keep everything above, at rest, moving and turning") {
     Dice dice(51);
     int hits = 0;
-    for (int shot = 0; shot < 4000; ++shot) {
+    for (int shot = 0; shot < shots_of(4000); ++shot) {
         const auto substeps = 1 + dice.below(20);
         const Real far = std::pow(Real(10), dice.between(0, 3));
         ColliderState collider = resting(plane(), {}, dice.rotation(360));
@@ -283,7 +289,7 @@ TEST_CASE("collide: planes keep everything above, at rest, moving and turning") 
             finish_motion(collider);
         }
     }
-    CHECK(hits > 5000);
+    CHECK(hits > shots_of(5000));
 }
 
 TEST_CASE("collide: the largest shapes push from beyond the range of relative positions") {
