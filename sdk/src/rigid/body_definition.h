@@ -30,6 +30,7 @@ struct BodyDefinition {
 };
 
 // Of a checked definition.
+BodySettings plain_settings(const lks_body_def& def);
 BodyDefinition plain_definition(const lks_body_def& def);
 // As the game would give it, at rest at the origin; its shapes are those of `definition`.
 lks_body_def define_body(const BodyDefinition& definition);

@@ -69,19 +69,23 @@ InverseMass made_inverse_mass(const BodyDescription& description) {
 
 } // namespace
 
+BodySettings plain_settings(const lks_body_def& def) {
+    return {def.mass,
+            def.gravity_factor,
+            def.linear_damping,
+            def.angular_damping,
+            def.static_friction,
+            def.dynamic_friction,
+            def.restitution,
+            def.filter,
+            def.never_sleeps};
+}
+
 BodyDefinition plain_definition(const lks_body_def& def) {
     BodyDefinition out{};
     out.kind = def.kind;
     out.shape_count = def.shape_count;
-    out.settings = {def.mass,
-                    def.gravity_factor,
-                    def.linear_damping,
-                    def.angular_damping,
-                    def.static_friction,
-                    def.dynamic_friction,
-                    def.restitution,
-                    def.filter,
-                    def.never_sleeps};
+    out.settings = plain_settings(def);
     for (std::uint32_t i = 0; i < def.shape_count; ++i) {
         out.shapes[i] = plain_shape(def.shapes[i]);
     }
@@ -127,13 +131,17 @@ BodyDescription describe_body(const BodyDefinition& definition) {
         const auto distance = static_cast<std::int64_t>(fixed::length(shape.position));
         out.radius = std::max(out.radius, distance + bounding_radius(shape));
     }
-    out.surface = {settings.static_friction, settings.dynamic_friction, settings.restitution};
-    out.filter = settings.filter;
-    out.gravity_factor = settings.gravity_factor;
-    out.linear_damping = settings.linear_damping;
-    out.angular_damping = settings.angular_damping;
-    out.never_sleeps = settings.never_sleeps;
+    take_settings(out, settings);
     return out;
+}
+
+void take_settings(BodyDescription& description, const BodySettings& settings) {
+    description.surface = {settings.static_friction, settings.dynamic_friction, settings.restitution};
+    description.filter = settings.filter;
+    description.gravity_factor = settings.gravity_factor;
+    description.linear_damping = settings.linear_damping;
+    description.angular_damping = settings.angular_damping;
+    description.never_sleeps = settings.never_sleeps;
 }
 
 void apply_description(Body& body, const BodyDescription& description) {

@@ -8,6 +8,8 @@
 namespace lks {
 
 BodyDescription describe_body(const BodyDefinition& definition);
+// Of settings with the same mass as before.
+void take_settings(BodyDescription& description, const BodySettings& settings);
 // At rest where the definition says, with its velocities.
 Body make_body(const BodyDescription& description, const lks_body_def& def);
 // What follows from the description alone; for new bodies and for those of images.
