@@ -108,15 +108,48 @@ LKS_API lks_result lks_body_set_kind(lks_world* world, lks_body_id body, uint32_
 /* LKS_BODY_DYNAMIC for a stale id. */
 LKS_API uint32_t lks_body_get_kind(const lks_world* world, lks_body_id body);
 
+/* What a body was added with may be changed while it exists: of either kind, with the ranges and sentences of
+ * lks_body_def, from the next tick on. It is state: images have it, hashes cover it, and a load brings back
+ * what was saved. A change wakes the body with its island, so that what was held up by the old value falls;
+ * one of its surface or its filter wakes who touches it, too, also where it is kinematic. What is the same as
+ * before changes nothing and wakes nobody. A stale id is LKS_ERROR_STALE_ID, what is out of range
+ * LKS_ERROR_INVALID_ARGUMENT. */
+
+/* On the world's gravity, -100 .. 100. Of a kinematic body it counts, as damping does, once it is dynamic. */
+LKS_API lks_result lks_body_set_gravity_factor(lks_world* world, lks_body_id body, lks_fixed factor);
+LKS_API lks_result lks_body_gravity_factor(const lks_world* world, lks_body_id body, lks_fixed* factor);
+/* 1/s, 0 .. 1000 each. */
+LKS_API lks_result lks_body_set_damping(lks_world* world, lks_body_id body, lks_fixed linear,
+                                        lks_fixed angular);
+/* Either may be null. */
+LKS_API lks_result lks_body_damping(const lks_world* world, lks_body_id body, lks_fixed* linear,
+                                    lks_fixed* angular);
+/* Of all its shapes: static friction 0 .. 100, dynamic friction 0 .. static_friction, restitution 0 .. 1. */
+LKS_API lks_result lks_body_set_surface(lks_world* world, lks_body_id body, lks_fixed static_friction,
+                                        lks_fixed dynamic_friction, lks_fixed restitution);
+/* Any may be null. */
+LKS_API lks_result lks_body_surface(const lks_world* world, lks_body_id body, lks_fixed* static_friction,
+                                    lks_fixed* dynamic_friction, lks_fixed* restitution);
+/* Of all its shapes; every value is a good one. Contacts that may not be any more end with the next tick and
+ * LKS_EVENT_CONTACT_END; what may touch now, and overlaps already, parts as what is added there does. A
+ * kinematic body wakes whom it touches by the new filter. Joints and attachments stay. */
+LKS_API lks_result lks_body_set_filter(lks_world* world, lks_body_id body, lks_filter filter);
+LKS_API lks_result lks_body_filter(const lks_world* world, lks_body_id body, lks_filter* filter);
+/* 1: it, and what it has to do with, stay awake; 0: they may sleep once they have rested. */
+LKS_API lks_result lks_body_set_never_sleeps(lks_world* world, lks_body_id body, uint32_t never_sleeps);
+/* 0 for a stale id. */
+LKS_API uint32_t lks_body_never_sleeps(const lks_world* world, lks_body_id body);
+
 /* Sleep. What has been slower than 10 cm/s, or within a centimetre and two degrees of one place, for half a
  * second, with all that it touches and is jointed to, is taken out of the simulation: a sleeping pile costs
  * next to nothing; what accelerates steadily by 5 cm/s² and more, as on a slope, is not. Where nothing
  * touches it that takes two seconds, and where something overlaps by more than 1.5 mm two seconds on the
  * average. It wakes, with all these, when something awake or kinematic comes to touch or push it, when
  * particles strike it or a cloth or rope leaves it altogether, when the game does something to it, and when
- * what it touches or is jointed to is removed, put elsewhere or gets another kind. Adding, placing or
- * removing a collider wakes all whose filters meet its own, adding or placing a kinematic body those that it
- * touches, gravity everybody. What comes to lie beside it, or softly on it, does not.
+ * what it touches or is jointed to is removed, put elsewhere or gets another kind, or what it touches another
+ * surface or filter. Adding, placing or removing a collider wakes all whose filters meet its own, adding or
+ * placing a kinematic body those that it touches, gravity everybody. What comes to lie beside it, or softly
+ * on it, does not.
  * 1 while the body is awake; 0 for a kinematic body and a stale id. */
 LKS_API uint32_t lks_body_is_awake(const lks_world* world, lks_body_id body);
 /* With its island, from the next tick on. */

@@ -19,8 +19,8 @@ extern "C" {
 
 typedef enum lks_event_kind {
     /* They touched in this tick, and not at the end of the one before. Every touch begins and ends, however
-     * soft it is, also where the game puts one of the two elsewhere or makes it kinematic; what is removed
-     * ends without an event. */
+     * soft it is, also where the game puts one of the two elsewhere, makes it kinematic or gives it
+     * another filter; what is removed ends without an event. */
     LKS_EVENT_CONTACT_BEGIN = 0,
     LKS_EVENT_CONTACT_END = 1,
     LKS_EVENT_JOINT_BROKE = 2, /* its id is stale now */
