@@ -157,7 +157,7 @@ LKS_API lks_result lks_body_wake(lks_world* world, lks_body_id body);
 /* How many bodies are awake; kinematic ones don't count. 0 for null. */
 LKS_API uint32_t lks_world_awake_body_count(const lks_world* world);
 /* Pairs of shapes, bodies' and colliders', that pushed each other at the end of the last tick, or did when
- * they fell asleep. Particles don't count. */
+ * they fell asleep. Particles don't count. Whose they are: lks_world_contacts (lockstitch/event.h). */
 LKS_API uint32_t lks_world_contact_count(const lks_world* world);
 
 /* kg; 0 for a kinematic body, and at most what an lks_fixed holds, 8388608, of one that its densities make

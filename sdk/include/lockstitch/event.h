@@ -81,11 +81,31 @@ typedef struct lks_event {
  * (lost_events). */
 LKS_API lks_result lks_world_record_events(lks_world* world, uint32_t kinds, lks_fixed least_impulse,
                                            uint32_t capacity);
-/* Of the ticks that the last lks_world_step or lks_world_advance ran. Valid until the next one, until a load,
- * and until lks_world_record_events. Never null where the count is not 0. */
+/* Of the ticks that the last lks_world_step or lks_world_advance ran. Valid until the next one, until a load
+ * (after which there are none: lks_world_contacts), and until lks_world_record_events. Never null where the
+ * count is not 0. */
 LKS_API const lks_event* lks_world_events(const lks_world* world);
 /* How many these are; 0 for null. */
 LKS_API uint32_t lks_world_event_count(const lks_world* world);
+
+/* Two that touch, as contacts' events have them. */
+typedef struct lks_contact {
+    lks_body_id body_a;       /* the body; of two the one with the lower index */
+    lks_body_id body_b;       /* the other body; generation 0: a collider */
+    lks_collider_id collider; /* what body_a touches; generation 0: a body */
+    uint32_t shape_pairs;     /* how many pairs of their shapes push each other */
+    uint32_t reserved;        /* 0 */
+} lks_contact;
+
+/* Who touches whom: whose LKS_EVENT_CONTACT_BEGIN came and whose LKS_EVENT_CONTACT_END did not, whether or
+ * not events were recorded, less what was removed. What the game has just put elsewhere, or excluded by a
+ * filter, is listed until the next tick ends it. The list is state, events are not: those of the ticks before
+ * a load are not told again, and whoever joins late by an image, or begins to record, has from this list the
+ * set that he would have kept from them. One entry two, in the order in which a tick tells begins; their
+ * shape_pairs added up are lks_world_contact_count (lockstitch/body.h). `count` is how many there are, of
+ * which the first `capacity` are written; `contacts` may be null where that is 0. Reads only. */
+LKS_API lks_result lks_world_contacts(const lks_world* world, lks_contact* contacts, uint32_t capacity,
+                                      uint32_t* count);
 
 #ifdef __cplusplus
 }

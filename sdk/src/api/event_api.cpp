@@ -5,6 +5,14 @@
 
 using namespace lks;
 
+namespace {
+
+bool are_of_same_pair(const ContactKey& p, const ContactKey& q) {
+    return p.body_a == q.body_a && p.other == q.other;
+}
+
+} // namespace
+
 extern "C" {
 
 lks_result lks_world_record_events(lks_world* world, uint32_t kinds, lks_fixed least_impulse,
@@ -48,6 +56,33 @@ const lks_event* lks_world_events(const lks_world* world) {
 
 uint32_t lks_world_event_count(const lks_world* world) {
     return world == nullptr ? 0 : static_cast<std::uint32_t>(world->event_log.events.size());
+}
+
+lks_result lks_world_contacts(const lks_world* world, lks_contact* contacts, uint32_t capacity,
+                              uint32_t* count) {
+    if (world == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (count == nullptr || (contacts == nullptr && capacity > 0)) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT,
+                           null_argument("lks_world_contacts", count == nullptr ? "count" : "contacts"));
+    }
+    // Contacts of the same two follow each other.
+    const Array<ContactMemory>& memories = world->rigid.memories;
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < memories.size(); ++found) {
+        const ContactKey& key = memories[i].key;
+        std::uint32_t shape_pairs = 0;
+        for (; i < memories.size() && are_of_same_pair(memories[i].key, key); ++i) {
+            ++shape_pairs;
+        }
+        if (found < capacity) {
+            const ContactSides sides = contact_sides(*world, key.body_a, key.other);
+            contacts[found] = {sides.body_a, sides.body_b, sides.collider, shape_pairs, 0};
+        }
+    }
+    *count = found;
+    return LKS_OK;
 }
 
 } // extern "C"

@@ -220,13 +220,10 @@ private:
 
     void report(const Pair& pair, const PairPushes& pushes, lks_event_kind kind, std::int64_t impulse) {
         lks_event event = make_event(world_, kind);
-        event.body_a = body_id(scene_, pair.body_a);
-        if (pair.other < other_is_collider) {
-            event.body_b = body_id(scene_, pair.other);
-        } else {
-            const std::uint32_t index = pair.other & ~other_is_collider;
-            event.collider = {index, world_.colliders[index].generation};
-        }
+        const ContactSides sides = contact_sides(world_, pair.body_a, pair.other);
+        event.body_a = sides.body_a;
+        event.body_b = sides.body_b;
+        event.collider = sides.collider;
         event.strength = impulse;
         set_place(event, pushes.place, pushes.normal);
         add(world_, event);
@@ -247,6 +244,17 @@ std::int64_t mean_strength(const lks_world& world, const fixed::Vec3& sum,
 }
 
 } // namespace
+
+ContactSides contact_sides(const lks_world& world, std::uint32_t body_a, std::uint32_t other) {
+    ContactSides sides{body_id(world.rigid, body_a), {}, {}};
+    if (other < other_is_collider) {
+        sides.body_b = body_id(world.rigid, other);
+    } else {
+        const std::uint32_t index = other & ~other_is_collider;
+        sides.collider = {index, world.colliders[index].generation};
+    }
+    return sides;
+}
 
 void record_contacts(lks_world& world) {
     if (world.event_log.wants_contacts()) {

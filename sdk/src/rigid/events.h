@@ -29,6 +29,14 @@ struct EventLog {
     Array<lks_event> events;
 };
 
+// Of a contact: the body, and the other body or the collider. Generation 0: none.
+struct ContactSides {
+    lks_body_id body_a;
+    lks_body_id body_b;
+    lks_collider_id collider;
+};
+ContactSides contact_sides(const lks_world& world, std::uint32_t body_a, std::uint32_t other);
+
 // At the end of a tick, before the new memories take the place of the old ones.
 void record_contacts(lks_world& world);
 void record_particles(lks_world& world);
