@@ -29,6 +29,50 @@ static int print_state(const lks_world* world) {
            0;
 }
 
+/* What a body was added with is changed, read and listed from C as well. 1: it is not. */
+static int change_body(void) {
+    lks_world_def world_def = lks_default_world_def();
+    lks_world* world = NULL;
+    lks_body_shape shape = lks_default_body_shape();
+    lks_body_def def = lks_default_body_def();
+    lks_collider_def ground = lks_default_collider_def();
+    lks_collider_id ground_id;
+    lks_body_id body;
+    const lks_filter ghost = {2, 0, -1};
+    lks_fixed values[6] = {0, 0, 0, 0, 0, 0};
+    lks_filter filter = {0, 0, 0};
+    lks_contact contact = {{0, 0}, {0, 0}, {0, 0}, 0, 0};
+    uint32_t before = 9;
+    uint32_t after = 9;
+    ground.shape = LKS_SHAPE_PLANE;
+    def.shapes = &shape;
+    def.shape_count = 1;
+    def.transform.position.y = shape.radius;
+    const int refused =
+        failed(lks_world_create(&world_def, &world), "world") ||
+        failed(lks_world_add_collider(world, &ground, &ground_id), "ground") ||
+        failed(lks_world_add_body(world, &def, &body), "body") || run(world, 2) ||
+        failed(lks_world_contacts(world, &contact, 1, &before), "contacts") ||
+        failed(lks_body_set_gravity_factor(world, body, LKS_FIXED(2)), "gravity factor") ||
+        failed(lks_body_set_damping(world, body, LKS_FIXED(3), LKS_FIXED(4)), "damping") ||
+        failed(lks_body_set_surface(world, body, LKS_FIXED(6), LKS_FIXED(5), LKS_FIXED_ONE), "surface") ||
+        failed(lks_body_set_filter(world, body, ghost), "filter") ||
+        failed(lks_body_set_never_sleeps(world, body, 1), "never_sleeps") || run(world, 1) ||
+        failed(lks_world_contacts(world, NULL, 0, &after), "contacts") ||
+        failed(lks_body_gravity_factor(world, body, &values[0]), "gravity factor") ||
+        failed(lks_body_damping(world, body, &values[1], &values[2]), "damping") ||
+        failed(lks_body_surface(world, body, &values[3], &values[4], &values[5]), "surface") ||
+        failed(lks_body_filter(world, body, &filter), "filter");
+    const int wrong = refused || before != 1 || contact.body_a.index != body.index ||
+                      contact.collider.generation != ground_id.generation || contact.shape_pairs != 1 ||
+                      after != 0 || values[0] != LKS_FIXED(2) || values[1] != LKS_FIXED(3) ||
+                      values[2] != LKS_FIXED(4) || values[3] != LKS_FIXED(6) || values[4] != LKS_FIXED(5) ||
+                      values[5] != LKS_FIXED_ONE || filter.category != 2 || filter.mask != 0 ||
+                      filter.group != -1 || lks_body_never_sleeps(world, body) != 1;
+    lks_world_destroy(world);
+    return wrong;
+}
+
 int main(void) {
     if (lks_version() != LKS_VERSION_MAJOR * 10000 + LKS_VERSION_MINOR * 100 + LKS_VERSION_PATCH) {
         fputs("The headers and the library are of different versions.\n", stderr);
@@ -89,6 +133,10 @@ int main(void) {
     if (lks_world_step(NULL) != LKS_ERROR_NULL_ARGUMENT ||
         lks_world_load(world, image, size - 8) != LKS_ERROR_CORRUPT_IMAGE || lks_world_hash(world) != first) {
         fputs("A bad call was not refused.\n", stderr);
+        return 1;
+    }
+    if (change_body()) {
+        fputs("A body is not as it was changed to.\n", stderr);
         return 1;
     }
 
