@@ -70,7 +70,7 @@ LKS_API uint32_t lks_world_has_attachment(const lks_world* world, lks_attachment
 /* How many there are; 0 for null. */
 LKS_API uint32_t lks_world_attachment_count(const lks_world* world);
 
-/* How far the two sides are apart, metres. */
+/* How far the two sides are apart, metres. Saturates at 8,388,608. */
 LKS_API lks_result lks_attachment_error(const lks_world* world, lks_attachment_id attachment,
                                         lks_fixed* error);
 /* What it does to the body, or the other vertex, in world axes, newtons: the mean over the last tick.

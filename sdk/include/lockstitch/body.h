@@ -92,8 +92,9 @@ LKS_API lks_result lks_body_velocity(const lks_world* world, lks_body_id body, l
 /* Each axis within the speed limit and the spin limit. Wakes it. LKS_ERROR_UNSUPPORTED if it is kinematic. */
 LKS_API lks_result lks_body_set_velocity(lks_world* world, lks_body_id body, lks_vec3 velocity,
                                          lks_vec3 angular_velocity);
-/* N·s at a point of the world within 64 m of the body. A kinematic body takes none: the call succeeds and
- * changes nothing. Beyond the limits the speeds are clamped. */
+/* N·s, each axis within ±8,388,607, at a point of the world within ±64 m of the centre of mass on each axis.
+ * A kinematic body takes none: the call succeeds and changes nothing. Beyond the limits the speeds are
+ * clamped. */
 LKS_API lks_result lks_body_apply_impulse(lks_world* world, lks_body_id body, lks_vec3 impulse,
                                           lks_vec3 point);
 /* Where a kinematic body is to be at the end of the next tick; it gets there evenly over the substeps (a turn

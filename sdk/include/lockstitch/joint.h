@@ -54,8 +54,8 @@ typedef struct lks_joint_def {
     uint32_t reserved;       /* 0 */
     lks_fixed swing_limit;   /* degrees, 0 .. 180; 180: none */
     lks_fixed swing_limit_z; /* degrees, 0 .. 180, where the cone is an ellipse: swing_limit towards the
-                                frames' local x, this towards local z, and what is less
-                                than 0.05 counts as that; negative: as swing_limit */
+                                frames' local x, this towards local z, and what is less than 0.05 counts as
+                                that; negative: as swing_limit */
     lks_fixed twist_min;     /* degrees, -180 .. twist_max; -180 and 180: none */
     lks_fixed twist_max;     /* degrees, twist_min .. 180 */
     lks_fixed distance_min;  /* metres, 0 .. distance_max */

@@ -45,10 +45,11 @@ LKS_API lks_result lks_world_remove_object(lks_world* world, lks_object_id objec
 LKS_API uint32_t lks_world_has_object(const lks_world* world, lks_object_id object);
 /* How many there are; 0 for null. */
 LKS_API uint32_t lks_world_object_count(const lks_world* world);
-/* The n-th object in index order, 0 ≤ n < object count. */
+/* The n-th object in index order, 0 ≤ n < object count, else LKS_ERROR_INVALID_ARGUMENT. */
 LKS_API lks_result lks_world_object_at(const lks_world* world, uint32_t n, lks_object_id* object);
 
-/* Null for a stale id. */
+/* The asset that it is made of: of several with the same fingerprint the one that the world was given first,
+ * which need not be the definition's. Null for a stale id. */
 LKS_API const lks_asset* lks_object_asset(const lks_world* world, lks_object_id object);
 /* Where the object's local frame is now. */
 LKS_API lks_result lks_object_origin(const lks_world* world, lks_object_id object, lks_vec3* origin);

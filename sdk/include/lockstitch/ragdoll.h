@@ -76,8 +76,7 @@ LKS_API lks_result lks_world_add_ragdoll(lks_world* world, const lks_ragdoll_def
 LKS_API lks_result lks_ragdoll_pose(const lks_world* world, const lks_body_id* bodies, uint32_t count,
                                     lks_transform* pose);
 /* Puts bones there at once. `before` is the pose one tick earlier, from which dynamic bones get their
- * velocities, clamped to the limits; null: they keep those they have. What they
- * wear: lks_object_teleport. */
+ * velocities, clamped to the limits; null: they keep those they have. What they wear: lks_object_teleport. */
 LKS_API lks_result lks_ragdoll_set_pose(lks_world* world, const lks_body_id* bodies, uint32_t count,
                                         const lks_transform* pose, const lks_transform* before);
 /* Kinematic bones: where they are to be at the end of the next tick, as lks_body_move_to has it. More than

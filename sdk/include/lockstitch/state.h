@@ -2,8 +2,8 @@
  *
  * The state is everything that can influence the future: tick, gravity, every object with its asset's
  * fingerprint, every collider, body, joint and attachment, what contacts of bodies pushed last, every id's
- * generation. An image of it is one block of bytes, little-endian on
- * every machine, the same bytes for the same state. It is versioned and has a checksum.
+ * generation. An image of it is one block of bytes, little-endian on every machine, the same bytes for the
+ * same state. It is versioned and has a checksum.
  */
 #ifndef LOCKSTITCH_STATE_H
 #define LOCKSTITCH_STATE_H
