@@ -113,7 +113,8 @@ lks_result check_body_def(const lks_world& world, const lks_body_def& def) {
         result != LKS_OK) {
         return result;
     }
-    // A microgram keeps every inertia within range.
+    // 40 fraction bits hold a milligram to a millionth, and less than that ever worse. Only what is given as
+    // a number needs the bound: inertias are those of one kilogram, and densities may make lighter bodies.
     const lks_fixed least_mass = def.mass == 0 ? 0 : LKS_FIXED_RATIO(1, 1000000);
     if (const lks_result result = check_numbers(
             world, {Number{"body's mass", " kg", def.mass, least_mass, LKS_FIXED(1000000)},

@@ -18,7 +18,7 @@ lks_result check_body_velocities(const lks_world& world, const lks_vec3& velocit
 lks_result check_body_motion(const lks_world& world, const Body& body, const fixed::Vec3& position,
                              const fixed::Rotation& rotation);
 
-// The slot's index once the id is good; reported otherwise.
+// LKS_OK, or reported: the id is stale.
 lks_result require_body(const lks_world* world, lks_body_id id);
 
 } // namespace lks

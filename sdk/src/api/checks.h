@@ -47,7 +47,7 @@ lks_result check_numbers(const lks_world& world, const Number (&numbers)[count])
     return check_numbers(world, numbers, count);
 }
 
-// "the velocity (0, 1e5, 0) m/s lies outside ±1000".
+// "The velocity (0, 100000, 0) m/s lies outside its range of plus or minus 1000 on each axis."
 Sentence out_of_range(const char* name, const lks_vec3& value, const char* unit, std::int64_t limit);
 Sentence out_of_range(const char* name, std::int64_t value, const char* unit, std::int64_t low,
                       std::int64_t high);

@@ -72,7 +72,7 @@ void place_particles(Object& object, const lks_object_def& def, const StepRate& 
     object.keep_previous();
 }
 
-// The first free index, or one more than all.
+// Room for an object at this index, which is at most one more than all. False: no memory.
 bool reserve_slot(lks_world& world, std::uint32_t index) {
     if (index < world.objects.size()) {
         return true;

@@ -165,7 +165,7 @@ lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
     return LKS_OK;
 }
 
-// Grows by half again at least, so that many ragdolls cost no more than their number.
+// Doubles at least where it grows, so that many ragdolls cost no more than their number.
 bool reserve(lks_world& world, std::uint32_t bones) {
     RigidScene& scene = world.rigid;
     const auto room = [bones](std::size_t size, std::size_t capacity) {

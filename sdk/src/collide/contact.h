@@ -55,10 +55,9 @@ struct FarPushes {
     std::uint64_t* words; // bit i % 64 of word i / 64 is set for particle i
 };
 
-// Particles first .. first + count - 1. Each result depends on that particle and the frame only, and
-// with a reaction on the particles before it. Positions
-// that are pushed beyond ±coordinate_limit stop there. No undefined behaviour for any positions. With `far`,
-// `first` is a multiple of 64.
+// Particles first .. first + count - 1. Each result depends on that particle and the frame only, and with a
+// reaction on the particles before it. Positions that are pushed beyond ±coordinate_limit stop there. No
+// undefined behaviour for any positions. With `far`, `first` is a multiple of 64.
 void resolve_contacts(const ContactFrame& frame, const ParticleArrays& particles, std::uint32_t first,
                       std::uint32_t count, const Kernels& kernels, ContactReaction* reaction = nullptr,
                       const FarPushes* far = nullptr);

@@ -53,12 +53,12 @@ struct ContactPush {
 };
 
 // What pushes at one place do to two bodies: along the normal, and across it.
-inline constexpr int normal_row = 0;
 struct ContactRowSide {
     std::int32_t turn_shift; // as UnitLever has them
     std::int32_t arm_shift;
     PushRow rows[3];
 };
+inline constexpr int normal_row = 0; // of the three
 struct ContactRows {
     ContactRowSide a, b;
     Inverse inverses[3];

@@ -22,8 +22,7 @@
 
 namespace lks {
 
-// A place for an object or a collider. The generation is that of the present or the next occupant, and never
-// 0.
+// A place for an object. The generation is that of the present or the next occupant, and never 0.
 struct ObjectSlot {
     Object* object; // null: free
     std::uint32_t generation;

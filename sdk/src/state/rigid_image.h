@@ -1,10 +1,9 @@
 // Bodies, joints and contacts in an image, as records (state/records.h):
 //
-//     body     generation, used; then, for the used ones, kind, shape count, BodySettings, a lks_body_shape
-//     for
-//              each shape, BodyState
+//     body     generation, used; then, for the used ones, kind, shape count, BodySettings,
+//              a lks_body_shape for each shape, BodyState
 //     joint    generation, used; then, for the used ones, JointDescription, JointState
-//     contact  key, count, a ContactPush for each point that pushes
+//     contact  key, count, normal, forgotten, a ContactPush for each point that pushes
 //
 // What a world has of the definitions already, byte for byte and in the same slots, is neither checked again
 // nor made again from them: a rollback costs no more than its states.
