@@ -1,5 +1,5 @@
-// Differences of 64-bit numbers that stop at the ends of the range: what saturates here is further away than
-// anything that can touch.
+// Sums and differences that stop at the ends of the range, of vectors too: what saturates here is further
+// away than anything that can touch.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,19 @@
 
 namespace lks {
 
-constexpr std::int64_t saturating_subtract(std::int64_t a, std::int64_t b) {
-    const std::int64_t difference = fixed::wrapping_subtract(a, b);
-    const bool overflow = ((a ^ b) & (a ^ difference)) < 0;
-    return overflow ? (a < 0 ? INT64_MIN : INT64_MAX) : difference;
-}
+using fixed::saturating_add;
+using fixed::saturating_subtract;
 
 constexpr fixed::Vec3 saturating_subtract(const fixed::Vec3& a, const fixed::Vec3& b) {
     return {saturating_subtract(a.x, b.x), saturating_subtract(a.y, b.y), saturating_subtract(a.z, b.z)};
 }
 
 constexpr fixed::Vec3 saturating_add(const fixed::Vec3& a, const fixed::Vec3& b) {
-    return {fixed::saturating_add(a.x, b.x), fixed::saturating_add(a.y, b.y),
-            fixed::saturating_add(a.z, b.z)};
+    return {saturating_add(a.x, b.x), saturating_add(a.y, b.y), saturating_add(a.z, b.z)};
 }
 
 constexpr std::int64_t saturating_double(std::int64_t a) {
-    return fixed::saturating_add(a, a);
+    return saturating_add(a, a);
 }
 
 // min(a, INT64_MAX)
@@ -35,9 +31,8 @@ constexpr std::int64_t saturate(std::uint64_t a) {
 
 // |x| + |y| + |z|, at least as long as v; at most 2^63 - 1.
 constexpr std::int64_t sum_of_magnitudes(const fixed::Vec3& v) {
-    return fixed::saturating_add(
-        fixed::saturating_add(saturate(fixed::magnitude(v.x)), saturate(fixed::magnitude(v.y))),
-        saturate(fixed::magnitude(v.z)));
+    return saturating_add(saturating_add(saturate(fixed::magnitude(v.x)), saturate(fixed::magnitude(v.y))),
+                          saturate(fixed::magnitude(v.z)));
 }
 
 } // namespace lks
