@@ -243,7 +243,7 @@ lks_result lks_body_apply_impulse(lks_world* world, lks_body_id body, lks_vec3 i
     }
     Body& found = world->rigid.bodies[body.index];
     const fixed::Vec3 lever = saturating_subtract(to_vec3(point), found.position);
-    if (!within(from_vec3(lever), LKS_FIXED(64))) {
+    if (!within(lever, LKS_FIXED(64))) {
         return world->fail(LKS_ERROR_INVALID_ARGUMENT, out_of_range("impulse's distance from the body",
                                                                     from_vec3(lever), "m", LKS_FIXED(64)));
     }

@@ -15,6 +15,10 @@ inline bool within(const lks_vec3& value, std::int64_t limit) {
     return within(value.x, limit) && within(value.y, limit) && within(value.z, limit);
 }
 
+inline bool within(const fixed::Vec3& value, std::int64_t limit) {
+    return within(value.x, limit) && within(value.y, limit) && within(value.z, limit);
+}
+
 inline fixed::Vec3 to_vec3(const lks_vec3& value) {
     return {value.x, value.y, value.z};
 }

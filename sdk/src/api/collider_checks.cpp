@@ -129,8 +129,8 @@ lks_result check_motion(const lks_world& world, const ColliderState& collider, c
 
 bool collider_is_valid(const ColliderState& collider) {
     return shape_is_valid(collider.shape) && surface_is_valid(collider) &&
-           within(from_vec3(collider.position), world_position_limit) &&
-           within(from_vec3(collider.target_position), world_position_limit) &&
+           within(collider.position, world_position_limit) &&
+           within(collider.target_position, world_position_limit) &&
            is_near(collider.position, collider.target_position) && fixed::is_nearly_unit(collider.rotation) &&
            fixed::is_nearly_unit(collider.target_rotation) &&
            within_quarter_turn(collider.rotation, collider.target_rotation);

@@ -6,7 +6,6 @@
 #include "api/checks.h"
 #include "fixed/rotation.h"
 #include "rigid/particle_touch.h"
-#include "solver/local_frame.h"
 #include "solver/prediction.h"
 #include "solver/wrapping.h"
 
@@ -255,16 +254,15 @@ lks_result lks_object_constraint_force(const lks_world* world, lks_object_id obj
                                                                   << asset.constraint_count() << ".");
     }
     const std::int64_t multiplier = found->multipliers[constraint];
-    const std::uint64_t magnitude = multiplier < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(multiplier)
-                                                   : static_cast<std::uint64_t>(multiplier);
     const fixed::Scaled effective =
         multiplier_scale(found->coefficients(), asset, world->rate,
                          {found->recorded_pins.data(), found->recorded_pins.size()}, constraint);
     std::int64_t newtons = 0;
     if (!effective.is_zero()) {
         const fixed::Scaled inverse_h = world->rate.inverse_h();
-        const fixed::Scaled value = fixed::Scaled::from_fixed(magnitude, coordinate_fraction_bits) /
-                                    effective * inverse_h * inverse_h;
+        const fixed::Scaled value =
+            fixed::Scaled::from_fixed(fixed::magnitude(multiplier), coordinate_fraction_bits) / effective *
+            inverse_h * inverse_h;
         newtons = std::min(value.to_i64_fixed(world_fraction_bits), LKS_FIXED(8388607));
     }
     // Λ is positive where the constraint pushes.

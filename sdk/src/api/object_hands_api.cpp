@@ -43,10 +43,6 @@ void change_motion(lks_world& world, Object& object, std::uint32_t particle, con
     }
 }
 
-std::int64_t component(const lks_vec3& value, int axis) {
-    return axis == 0 ? value.x : axis == 1 ? value.y : value.z;
-}
-
 Pin* require_pin(lks_world* world, lks_object_id id, std::uint32_t vertex, Object*& object,
                  lks_result& result) {
     std::uint32_t particle = 0;
@@ -112,7 +108,7 @@ lks_result lks_object_set_velocity(lks_world* world, lks_object_id object, uint3
                            Sentence() << "Vertex " << vertex << " is pinned; its pin decides its velocity.");
     }
     change_motion(*world, *found, particle, [&](int axis, std::int64_t) {
-        return motion_from_velocity(world->rate, component(velocity, axis));
+        return motion_from_velocity(world->rate, fixed::component(velocity, axis));
     });
     return LKS_OK;
 }
@@ -127,8 +123,8 @@ lks_result lks_object_apply_impulse(lks_world* world, lks_object_id object, uint
     }
     const fixed::Scaled& inverse_mass = found->asset().inverse_masses[particle];
     change_motion(*world, *found, particle, [&](int axis, std::int64_t motion) {
-        return saturating_add(motion,
-                              motion_from_impulse(world->rate, component(impulse, axis), inverse_mass));
+        return saturating_add(
+            motion, motion_from_impulse(world->rate, fixed::component(impulse, axis), inverse_mass));
     });
     return LKS_OK;
 }

@@ -16,10 +16,6 @@ constexpr std::int64_t centre_limit = std::int64_t{126} << world_fraction_bits;
 // Beyond this at either end, the whole substep is out of reach, for a collider moves at most 100 m a tick.
 constexpr std::int64_t hopeless = std::int64_t{512} << world_fraction_bits;
 
-std::int64_t& component(fixed::Vec3& v, int axis) {
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 // Moves `from` towards `to` until its axis has the value `limit`, which lies between the two.
 void move_to_limit(fixed::Vec3& from, const fixed::Vec3& to, int axis, std::int64_t limit) {
     fixed::Vec3 end = to;

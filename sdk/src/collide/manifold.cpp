@@ -41,10 +41,9 @@ void collide_plane(const Piece& a, const Piece& plane, std::int64_t margin, Mani
     const Direction local = fixed::rotate_transposed(a.axes, up);
     const std::int32_t parts[3] = {local.x, local.y, local.z};
     const std::int64_t extents[3] = {a.half_extents.x, a.half_extents.y, a.half_extents.z};
-    const auto size = [](std::int32_t c) { return c < 0 ? -c : c; };
     int face = 0;
     for (int i = 1; i < 3; ++i) {
-        face = size(parts[i]) > size(parts[face]) ? i : face;
+        face = fixed::magnitude(parts[i]) > fixed::magnitude(parts[face]) ? i : face;
     }
     for (std::uint32_t corner = 0; corner < 4; ++corner) {
         std::int64_t place[3];

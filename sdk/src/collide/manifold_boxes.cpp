@@ -1,6 +1,7 @@
 // Two boxes: the axis of least overlap of fifteen (Gottschalk, Lin, Manocha 1996), then the incident face cut
 // to the reference face, or the two edges that meet.
 #include <algorithm>
+#include <cstdlib>
 
 #include "collide/manifold.h"
 #include "fixed/formats.h"
@@ -139,10 +140,7 @@ public:
     }
 
 private:
-    static std::int64_t size(std::int64_t c) { return c < 0 ? -c : c; }
-    static std::int64_t extent(const Piece& box, int i) {
-        return i == 0 ? box.half_extents.x : i == 1 ? box.half_extents.y : box.half_extents.z;
-    }
+    static std::int64_t extent(const Piece& box, int i) { return fixed::component(box.half_extents, i); }
 
     // Half the width of a box along a direction that has these cosines with its axes.
     static std::int64_t width(const Piece& box, std::int32_t x, std::int32_t y, std::int32_t z) {
@@ -225,7 +223,7 @@ private:
         const auto part = [](std::int32_t c, std::int64_t e) {
             return fixed::scale_component(c < 0 ? -c : c, e);
         };
-        return size(distance) - part(cosines_[i2][j], extent(a_, i1)) -
+        return std::abs(distance) - part(cosines_[i2][j], extent(a_, i1)) -
                part(cosines_[i1][j], extent(a_, i2)) -
                part(cosines_[i][(j + 2) % 3], extent(b_, (j + 1) % 3)) -
                part(cosines_[i][(j + 1) % 3], extent(b_, (j + 2) % 3));
@@ -244,7 +242,7 @@ private:
         const std::int32_t parts[3] = {local.x, local.y, local.z};
         int face = 0;
         for (int i = 1; i < 3; ++i) {
-            face = size(parts[i]) > size(parts[face]) ? i : face;
+            face = fixed::magnitude(parts[i]) > fixed::magnitude(parts[face]) ? i : face;
         }
         const bool positive_face = parts[face] < 0;
         const int along_u = (k + 1) % 3;

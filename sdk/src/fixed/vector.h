@@ -12,6 +12,19 @@ struct Vec3 {
     friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
 };
 
+// Of anything with x, y and z: the one of axis 0, 1 or 2.
+template <typename Vector>
+constexpr auto& component(Vector& v, int axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+// The greatest of |x|, |y| and |z|.
+constexpr std::uint64_t greatest_magnitude(const Vec3& v) {
+    const std::uint64_t x = magnitude(v.x), y = magnitude(v.y), z = magnitude(v.z);
+    const std::uint64_t greater = x < y ? y : x;
+    return greater < z ? z : greater;
+}
+
 // Sums wrap modulo 2^64; callers bound their coordinates where that would be wrong.
 constexpr Vec3 operator+(Vec3 a, Vec3 b) {
     return {wrapping_add(a.x, b.x), wrapping_add(a.y, b.y), wrapping_add(a.z, b.z)};

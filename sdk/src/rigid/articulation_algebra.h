@@ -44,10 +44,6 @@ inline fixed::Vec3 symmetric(const std::int64_t (&m)[6], const fixed::Vec3& v) {
     return {dot_32({m[0], m[1], m[2]}, v), dot_32({m[1], m[3], m[4]}, v), dot_32({m[2], m[4], m[5]}, v)};
 }
 
-inline std::int64_t component(const fixed::Vec3& v, int i) {
-    return i == 0 ? v.x : i == 1 ? v.y : v.z;
-}
-
 // Without what its joints carry.
 inline ArticulatedInverse own_inverse(const Body& body, std::int64_t share) {
     ArticulatedInverse inverse{};

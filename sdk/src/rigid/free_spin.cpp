@@ -18,14 +18,13 @@ Vec3 cross_turn(const Vec3& a, const Vec3& b) {
 }
 
 std::int64_t greatest(const Vec3& v) {
-    const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
-    return std::max({size(v.x), size(v.y), size(v.z)});
+    return static_cast<std::int64_t>(fixed::greatest_magnitude(v));
 }
 
 // I⁻¹(IΩ × hΩ/2), in body axes. One of the two Ω has as many more bits as there is room for: of a slender
 // body about its axis, or a slow one, next to nothing would be left in 2^-40.
 Vec3 gyroscopic_change(const BodyDescription& body, const Vec3& spin, const MotionRate& rate) {
-    const int up = std::max(std::countl_zero(static_cast<std::uint64_t>(greatest(spin))) - 6, 0);
+    const int up = std::max(std::countl_zero(fixed::greatest_magnitude(spin)) - 6, 0);
     const std::int64_t lift = std::int64_t{1} << up;
     const Vec3 lifted{spin.x * lift, spin.y * lift, spin.z * lift};
     const Vec3 torque = cross_turn(multiply(body.properties.inertia, lifted), to_half_turn(spin, rate));

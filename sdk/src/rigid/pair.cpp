@@ -132,8 +132,7 @@ std::int64_t divide(std::int64_t value, const Inverse& inverse) {
 
 // Contacts lie within the body's own unit; joints may be further out.
 UnitLever to_unit(const Body& body, const Vec3& lever) {
-    const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
-    const std::int64_t greatest = std::max({size(lever.x), size(lever.y), size(lever.z)});
+    const std::uint64_t greatest = fixed::greatest_magnitude(lever);
     int unit = body.scale;
     while (greatest >> (world_fraction_bits + unit - 1) != 0) {
         ++unit;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collide/saturation.h"
 #include "rigid/articulation.h"
 #include "rigid/carried_pushes.h"
 #include "rigid/contact_search.h"
@@ -37,10 +38,7 @@ Object& coupled_object(lks_world& world, std::uint32_t index) {
 RigidSubstep::RigidSubstep(lks_world& world, Team* team)
     : world_(world), scene_(world.rigid), team_(team), rate_(world.rate),
       free_figures_(scene_, rate_, world.rate.substeps) {
-    const fixed::Vec3& g = world.gravity;
-    const auto size = [](std::int64_t c) { return c < 0 ? -c : c; };
-    const std::int64_t gravity_speed = (size(g.x) + size(g.y) + size(g.z)) / rate_.substeps_per_second;
-    least_speed_ = 2 * least_approach(gravity_speed);
+    least_speed_ = 2 * least_approach(sum_of_magnitudes(world.gravity) / rate_.substeps_per_second);
     for (const Contact& contact : scene_.contacts) {
         any_restitution_ = any_restitution_ || contact.restitution != 0;
     }

@@ -44,10 +44,8 @@ inline fixed::Vec3 way_in_substep(const Body& a, const Body& b, const StepRate& 
 
 // How far a spin carries points that are `radius` from the middle, in one of n parts of a second.
 inline std::int64_t turn_in(const Body& body, std::int64_t radius, std::int64_t n, const StepRate& rate) {
-    const fixed::Vec3& w = body.angular_velocity;
     const auto limit = static_cast<std::uint64_t>(body_spin_limit(rate));
-    const bool limited =
-        std::max({fixed::magnitude(w.x), fixed::magnitude(w.y), fixed::magnitude(w.z)}) >= limit;
+    const bool limited = fixed::greatest_magnitude(body.angular_velocity) >= limit;
     const std::int64_t turn = spin_speed(body.angular_velocity, radius) / n;
     // What is kinematic turns by a quarter at most in a tick.
     return limited && !body.is_dynamic() ? std::max(turn, saturating_double(radius)) : turn;

@@ -54,7 +54,7 @@ std::uint64_t move_origin(Object& object, const Laid& laid, int axis, std::int64
             continue;
         }
         Pin& pin = *object.find_pin(known.particle);
-        std::int64_t& target = axis == 0 ? pin.target.x : axis == 1 ? pin.target.y : pin.target.z;
+        std::int64_t& target = fixed::component(pin.target, axis);
         const std::int64_t shifted = fixed::saturate_to_int64(
             fixed::to_int128(target) - (fixed::to_int128(metres) << coordinate_fraction_bits));
         target = std::clamp(shifted, -coordinate_limit, coordinate_limit);

@@ -150,7 +150,7 @@ void Object::record_pins() {
 std::uint64_t Object::shift_pin_targets(int axis, std::int64_t shift) {
     std::uint64_t clamped = 0;
     for (Pin& pin : pins_) {
-        std::int64_t& target = axis == 0 ? pin.target.x : axis == 1 ? pin.target.y : pin.target.z;
+        std::int64_t& target = fixed::component(pin.target, axis);
         // Both within ±64 m, so the difference fits.
         const std::int64_t shifted = target - shift;
         target = std::clamp(shifted, -coordinate_limit, coordinate_limit);

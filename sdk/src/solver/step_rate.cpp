@@ -10,28 +10,16 @@ namespace {
 constexpr std::int64_t speed_limit_metres_per_second = 1000;
 constexpr std::int64_t recovery_metres_per_second = 3;
 
-std::uint64_t magnitude(std::int64_t value) {
-    return value < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(value)
-                     : static_cast<std::uint64_t>(value);
-}
-
-std::int64_t with_sign(bool negative, fixed::UInt128 value) {
-    if (value.hi != 0 || value.lo > static_cast<std::uint64_t>(INT64_MAX)) {
-        return negative ? -INT64_MAX : INT64_MAX;
-    }
-    const auto result = static_cast<std::int64_t>(value.lo);
-    return negative ? -result : result;
-}
-
-// a·b / (2^shift · divisor), nearest, ties away from zero.
+// a·b / (2^shift · divisor), nearest, ties away from zero; saturates at ±INT64_MAX.
 std::int64_t multiply_shift_divide(std::int64_t a, std::int64_t b, int shift, std::uint64_t divisor) {
     const bool negative = (a < 0) != (b < 0);
-    fixed::UInt128 product = fixed::multiply_unsigned(magnitude(a), magnitude(b));
+    fixed::UInt128 product = fixed::multiply_unsigned(fixed::magnitude(a), fixed::magnitude(b));
     // The quotient's doubled value decides the rounding, so the shift keeps one bit back: exact, as nothing
     // is lost that a later step could see but "more than half".
     const fixed::UInt128 doubled = fixed::divide(product << 1, divisor).quotient >> shift;
     const fixed::UInt128 one{0, 1};
-    return with_sign(negative, (doubled + one) >> 1);
+    const std::uint64_t size = fixed::saturate_to_uint64((doubled + one) >> 1);
+    return fixed::with_sign(std::min<std::uint64_t>(size, INT64_MAX), negative);
 }
 
 } // namespace
@@ -67,8 +55,8 @@ std::int64_t motion_from_acceleration(const StepRate& rate, std::int64_t acceler
 
 std::int64_t motion_from_impulse(const StepRate& rate, std::int64_t impulse,
                                  const fixed::Scaled& inverse_mass) {
-    const fixed::Scaled motion =
-        fixed::Scaled::from_fixed(magnitude(impulse), world_fraction_bits) * inverse_mass / rate.inverse_h();
+    const fixed::Scaled motion = fixed::Scaled::from_fixed(fixed::magnitude(impulse), world_fraction_bits) *
+                                 inverse_mass / rate.inverse_h();
     const std::int64_t result = motion.to_i64_fixed(coordinate_fraction_bits);
     return impulse < 0 ? -result : result;
 }

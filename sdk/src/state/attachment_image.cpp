@@ -26,14 +26,12 @@ bool is_valid(const lks_world& world, const Attachment& attachment) {
     const Array<Loaded>& bodies = world.rigid.loaded_bodies;
     const bool to_body = d.kind == LKS_ATTACHMENT_TO_BODY;
     const bool other =
-        to_body
-            ? d.other < bodies.size() && bodies[d.other] != Loaded::nothing && d.other_particle == 0
-            : has_particle(world, d.other, d.other_particle) &&
-                  (d.other != d.object || d.other_particle != d.particle) && within(from_vec3(d.point), 0);
+        to_body ? d.other < bodies.size() && bodies[d.other] != Loaded::nothing && d.other_particle == 0
+                : has_particle(world, d.other, d.other_particle) &&
+                      (d.other != d.object || d.other_particle != d.particle) && within(d.point, 0);
     const std::int64_t greatest_sum = greatest_push * world.rate.substeps;
     return d.kind <= LKS_ATTACHMENT_TO_VERTEX && has_particle(world, d.object, d.particle) && other &&
-           d.reserved == 0 && within(from_vec3(d.point), LKS_FIXED(124)) &&
-           within(from_vec3(attachment.pushed), greatest_sum) &&
+           d.reserved == 0 && within(d.point, LKS_FIXED(124)) && within(attachment.pushed, greatest_sum) &&
            check_attachment_ranges(world, d.compliance, d.damping, d.break_force) == LKS_OK;
 }
 

@@ -92,10 +92,6 @@ ColliderState read_collider(ByteReader& in) {
     return collider;
 }
 
-bool within(const fixed::Vec3& value, std::int64_t limit) {
-    return lks::within(from_vec3(value), limit);
-}
-
 lks_result corrupt(const lks_world& world, const Sentence& what) {
     return world.fail(LKS_ERROR_CORRUPT_IMAGE, what);
 }
@@ -320,7 +316,7 @@ private:
                image.constraint_count == (image.record_forces != 0 ? asset.constraint_count() : 0) &&
                image.pin_count <= image.vertex_count &&
                image.recorded_pin_count <= (image.record_forces != 0 ? image.vertex_count : 0) &&
-               lks::within(image.gravity_factor, LKS_FIXED(100)) && image.linear_damping >= 0 &&
+               within(image.gravity_factor, LKS_FIXED(100)) && image.linear_damping >= 0 &&
                image.linear_damping <= LKS_FIXED(1000) && within(image.origin, world_position_limit);
     }
 
@@ -329,7 +325,7 @@ private:
         for (std::uint32_t i = 0; i < image.pin_count; ++i) {
             const Pin pin = read_pin(in);
             if (std::int64_t{pin.particle} <= last || pin.particle >= image.vertex_count ||
-                !within({pin.target.x, pin.target.y, pin.target.z}, coordinate_limit)) {
+                !within(fixed::Vec3{pin.target.x, pin.target.y, pin.target.z}, coordinate_limit)) {
                 return false;
             }
             last = pin.particle;

@@ -27,7 +27,7 @@ bool is_unit(const unsigned char* at) {
 // Of a normal, with room for roundings.
 bool is_direction(const fixed::Direction& d) {
     constexpr std::int32_t longest = direction_one + (direction_one >> 16);
-    return lks::within(d.x, longest) && lks::within(d.y, longest) && lks::within(d.z, longest);
+    return within(d.x, longest) && within(d.y, longest) && within(d.z, longest);
 }
 
 // What a shape has not got is zero.
@@ -36,10 +36,6 @@ bool is_plain(const lks_body_shape& s) {
     const fixed::Rotation rotation = to_rotation(s.transform.rotation);
     return (round || s.radius == 0) && (s.shape == LKS_SHAPE_CAPSULE || s.half_length == 0) &&
            (!round || within(s.half_extents, 0)) && fixed::normalise(rotation) == rotation;
-}
-
-bool within(const fixed::Vec3& v, std::int64_t limit) {
-    return lks::within(from_vec3(v), limit);
 }
 
 } // namespace
