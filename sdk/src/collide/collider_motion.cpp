@@ -95,7 +95,8 @@ std::int64_t turn_bound(const fixed::Matrix3& start, const fixed::Matrix3& end) 
     return (std::int64_t{fixed::square_root(sum)} + 1) * 3 + 4;
 }
 
-std::uint32_t combined_friction(std::int64_t coefficient, std::int64_t factor) {
+// A collider's coefficient for particles of this factor.
+std::uint32_t scaled_friction(std::int64_t coefficient, std::int64_t factor) {
     const fixed::UInt128 product =
         fixed::multiply_unsigned(fixed::magnitude(coefficient), fixed::magnitude(factor));
     const fixed::UInt128 scaled =
@@ -173,8 +174,8 @@ ContactFrame make_contact_frame(const ShapeWay& way, const fixed::Vec3& origin, 
     ContactFrame frame{};
     frame.shape = way.shape;
     frame.margin = margin;
-    frame.static_friction = combined_friction(way.static_friction, friction_factor);
-    frame.dynamic_friction = combined_friction(way.dynamic_friction, friction_factor);
+    frame.static_friction = scaled_friction(way.static_friction, friction_factor);
+    frame.dynamic_friction = scaled_friction(way.dynamic_friction, friction_factor);
     frame.greatest_recovery = INT64_MAX;
     frame.greatest_growth = INT64_MAX;
     frame.rotating = way.rotating;

@@ -1,10 +1,15 @@
-// Lengths, speeds and pushes times a ratio.
+// Lengths, speeds, pushes and other World values as numbers, and times a ratio.
 #pragma once
 
 #include "fixed/formats.h"
 #include "fixed/scaled.h"
 
 namespace lks {
+
+// Of a value that is not negative.
+inline fixed::Scaled world_value(std::int64_t value) {
+    return fixed::Scaled::from_fixed(static_cast<std::uint64_t>(value), world_fraction_bits);
+}
 
 // value · factor with its sign, World; saturates at ±INT64_MAX.
 inline std::int64_t times(std::int64_t value, const fixed::Scaled& factor) {

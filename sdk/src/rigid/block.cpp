@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fixed/world_times.h"
 #include "rigid/body_motion.h"
 
 namespace lks {
@@ -56,10 +57,6 @@ Vec3 solve(const BlockInverse& inverse, const Vec3& error) {
                           : fixed::shift_right_rounded(c, -shift);
     };
     return {part(v.x), part(v.y), part(v.z)};
-}
-
-Scaled world_value(std::int64_t value) {
-    return Scaled::from_fixed(static_cast<std::uint64_t>(value), world_fraction_bits);
 }
 
 std::int64_t softness_of(const Scaled& value) {

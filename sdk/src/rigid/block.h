@@ -49,8 +49,6 @@ fixed::Vec3 soften(const Softness& s, const fixed::Vec3& error, const fixed::Vec
 // gives way by is no error, however far that is.
 std::int64_t greatest_step_of(const Softness& s);
 
-// A World value as a number.
-fixed::Scaled world_value(std::int64_t value);
 // The most that the pushes of a tick's substeps may add up to where a force, or torque, that pushes by
 // `push_of_one` a substep must not exceed the limit, World; 0: no limit.
 std::int64_t greatest_sum(std::int64_t limit, const fixed::Scaled& push_of_one, const StepRate& rate);

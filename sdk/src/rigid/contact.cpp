@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
+#include "fixed/formats.h"
 #include "rigid/contact_points.h"
 
 namespace lks {
@@ -117,7 +118,8 @@ std::uint32_t combined_friction(std::int64_t a, std::int64_t b) {
     const std::uint64_t root = // World
         a == b ? fixed::magnitude(a)
                : fixed::square_root(fixed::multiply_unsigned(fixed::magnitude(a), fixed::magnitude(b)));
-    return static_cast<std::uint32_t>(fixed::shift_right_rounded(root, world_fraction_bits - 18));
+    return static_cast<std::uint32_t>(
+        fixed::shift_right_rounded(root, world_fraction_bits - friction_fraction_bits));
 }
 
 void take_manifold(Contact& contact, const OldContact& old_contact, const Manifold& manifold, const Body& a,

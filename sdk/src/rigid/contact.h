@@ -97,7 +97,7 @@ struct Contact {
     PairShares shares;
     std::int64_t radius_a;
     std::int64_t radius_b;
-    std::uint32_t static_friction; // 18 fraction bits
+    std::uint32_t static_friction; // friction_fraction_bits
     std::uint32_t dynamic_friction;
     std::int64_t restitution;       // World
     std::int64_t given_speed;       // World m/s: what it gave along its normals in this tick, added up
@@ -208,7 +208,7 @@ void undo_overlap(const Contact& contact, ContactBodies bodies, const MotionRate
 // Whether any of its points overlaps by more than this.
 bool is_deeper(const Contact& contact, std::int64_t depth);
 
-// The geometric mean of two coefficients, 18 fraction bits.
+// The geometric mean of two coefficients, friction_fraction_bits.
 std::uint32_t combined_friction(std::int64_t a, std::int64_t b);
 
 } // namespace lks

@@ -2,6 +2,7 @@
 // known.
 #include <algorithm>
 
+#include "fixed/formats.h"
 #include "kernels/bounded.h"
 #include "rigid/contact.h"
 #include "rigid/contact_points.h"
@@ -47,7 +48,7 @@ void rub(const Contact& contact, const Levers& levers, std::int64_t normal, cons
     std::int64_t weight = 0;
     const ImpactSide a = impact_side(bodies.a, contact.shares.a, way.direction, levers.a, weight);
     const ImpactSide b = impact_side(bodies.b, contact.shares.b, way.direction, levers.b, weight);
-    const std::int64_t most = fixed::multiply_shift(normal, contact.dynamic_friction, 18);
+    const std::int64_t most = fixed::multiply_shift(normal, contact.dynamic_friction, friction_fraction_bits);
     const std::int64_t stops = divide(bounded(way.length, greatest_given), invert(weight));
     const std::int64_t p = -std::min(stops, most);
     accelerate(bodies.a, a.row, contact.shares.a, a.turn_shift, way.direction, p, -1);

@@ -4,6 +4,7 @@
 // iteration.
 #include <algorithm>
 
+#include "fixed/formats.h"
 #include "rigid/contact.h"
 #include "rigid/contact_points.h"
 
@@ -16,7 +17,7 @@ using fixed::Vec3;
 constexpr std::int64_t greatest_gripping_push = std::int64_t{1} << (world_fraction_bits - 2);
 
 std::int64_t grip(std::int64_t push, std::uint32_t friction) {
-    return (std::min(push, greatest_gripping_push) * std::int64_t{friction}) >> 18;
+    return (std::min(push, greatest_gripping_push) * std::int64_t{friction}) >> friction_fraction_bits;
 }
 
 // How far b's point has gone along a direction, less a's.

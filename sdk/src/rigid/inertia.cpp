@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "fixed/world_times.h"
 #include "rigid/quaternion.h"
 
 namespace lks {
@@ -16,26 +17,22 @@ struct WideMatrix {
     std::int64_t xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
 };
 
-Scaled from_world(std::int64_t value) {
-    return Scaled::from_fixed(static_cast<std::uint64_t>(value), world_fraction_bits);
-}
-
 // π to 64 bits.
 Scaled pi() {
     return Scaled::from_fixed(14488038916154245685u, 62);
 }
 
 Scaled volume(const BodyShape& shape) {
-    const Scaled r = from_world(shape.radius);
+    const Scaled r = world_value(shape.radius);
     const Scaled ball = pi() * r * r * r * Scaled::ratio(4, 3);
     switch (shape.kind) {
     case LKS_SHAPE_SPHERE:
         return ball;
     case LKS_SHAPE_CAPSULE:
-        return ball + pi() * r * r * from_world(shape.half_length) * Scaled::from_u64(2);
+        return ball + pi() * r * r * world_value(shape.half_length) * Scaled::from_u64(2);
     default:
-        return from_world(shape.half_extents.x) * from_world(shape.half_extents.y) *
-               from_world(shape.half_extents.z) * Scaled::from_u64(8);
+        return world_value(shape.half_extents.x) * world_value(shape.half_extents.y) *
+               world_value(shape.half_extents.z) * Scaled::from_u64(8);
     }
 }
 
@@ -192,7 +189,7 @@ MassProperties mass_properties(const BodyShape* shapes, std::uint32_t count) {
     MassProperties out{};
     Scaled masses[LKS_MAX_BODY_SHAPES];
     for (std::uint32_t i = 0; i < count; ++i) {
-        masses[i] = volume(shapes[i]) * from_world(shapes[i].density);
+        masses[i] = volume(shapes[i]) * world_value(shapes[i].density);
         out.mass = out.mass + masses[i];
     }
     std::int64_t shares[LKS_MAX_BODY_SHAPES];

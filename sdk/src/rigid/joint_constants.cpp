@@ -4,6 +4,7 @@
 
 #include "fixed/arc_tangent.h"
 #include "fixed/trigonometry.h"
+#include "fixed/world_times.h"
 #include "rigid/make_body.h"
 
 namespace lks {

@@ -53,10 +53,6 @@ BodyShape make_shape(const lks_body_shape& from) {
     return shape;
 }
 
-Scaled magnitude(std::int64_t value) {
-    return Scaled::from_fixed(fixed::magnitude(value), world_fraction_bits);
-}
-
 // a·b − c·d, World.
 std::int64_t minor(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
     return fixed::saturate_to_int64(fixed::shift_right_rounded(
@@ -122,7 +118,7 @@ BodyDescription describe_body(const BodyDefinition& definition) {
     }
     out.properties = mass_properties(out.shapes, out.shape_count);
     if (settings.mass != 0) {
-        out.properties.mass = magnitude(settings.mass);
+        out.properties.mass = world_value(settings.mass);
     }
     out.centre = out.properties.centre;
     for (std::uint32_t i = 0; i < out.shape_count; ++i) {
