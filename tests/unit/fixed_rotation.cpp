@@ -30,6 +30,12 @@ std::uint64_t bits(std::int64_t a) {
     return static_cast<std::uint64_t>(a);
 }
 
+Matrix3 transpose(const Matrix3& a) {
+    return {{{a.m[0][0], a.m[1][0], a.m[2][0]},
+             {a.m[0][1], a.m[1][1], a.m[2][1]},
+             {a.m[0][2], a.m[1][2], a.m[2][2]}}};
+}
+
 std::int32_t any_component(Random& random) {
     return static_cast<std::int32_t>(random.any_signed(31));
 }
@@ -249,18 +255,6 @@ TEST_CASE("fixed: rotating 64-bit vectors is exact but for one rounding, and tur
             tally.expect(exact(backward[j]) == shift_right_half_up(column, 30), bits(v.x), bits(v.y),
                          bits(v.z));
         }
-        const std::int32_t small[3] = {static_cast<std::int32_t>(v.x), static_cast<std::int32_t>(v.y),
-                                       static_cast<std::int32_t>(v.z)};
-        const Vec3 r32 = rotate32(a, small), t32 = rotate32_transposed(a, small);
-        const std::int64_t forward32[3] = {r32.x, r32.y, r32.z}, backward32[3] = {t32.x, t32.y, t32.z};
-        for (int j = 0; j < 3; ++j) {
-            const Sum row = exact(a.m[j][0]) * exact(small[0]) + exact(a.m[j][1]) * exact(small[1]) +
-                            exact(a.m[j][2]) * exact(small[2]);
-            const Sum column = exact(a.m[0][j]) * exact(small[0]) + exact(a.m[1][j]) * exact(small[1]) +
-                               exact(a.m[2][j]) * exact(small[2]);
-            tally.expect(exact(forward32[j]) == row && exact(backward32[j]) == column, bits(v.x), bits(v.y),
-                         bits(v.z));
-        }
         // There and back: within 2^-27 of the length and two units.
         const std::int64_t quarter = std::int64_t{1} << 60;
         const Vec3 w{v.x % quarter, v.y % quarter, v.z % quarter};
@@ -285,17 +279,18 @@ TEST_CASE("fixed: directions are turned with one rounding") {
         NormalisedVector n{};
         if (!normalise({random.any_signed(), random.any_signed(), random.any_signed()}, n))
             continue;
-        const std::int32_t d[3] = {n.direction.x, n.direction.y, n.direction.z};
-        const Vec3 forward = rotate32(a, d), backward = rotate32_transposed(a, d);
-        const Direction turned = rotate(a, n.direction), back = rotate_transposed(a, n.direction);
-        tally.expect(exact(turned.x) == shift_right_half_up(exact(forward.x), 30) &&
-                         exact(turned.y) == shift_right_half_up(exact(forward.y), 30) &&
-                         exact(turned.z) == shift_right_half_up(exact(forward.z), 30),
-                     bits(d[0]), bits(d[1]), bits(d[2]));
-        tally.expect(exact(back.x) == shift_right_half_up(exact(backward.x), 30) &&
-                         exact(back.y) == shift_right_half_up(exact(backward.y), 30) &&
-                         exact(back.z) == shift_right_half_up(exact(backward.z), 30),
-                     bits(d[0]), bits(d[1]), bits(d[2]));
+        const Direction& d = n.direction;
+        const Direction r = rotate(a, d), t = rotate_transposed(a, d);
+        const std::int32_t turned[3] = {r.x, r.y, r.z}, back[3] = {t.x, t.y, t.z};
+        for (int j = 0; j < 3; ++j) {
+            const std::int64_t row =
+                std::int64_t{a.m[j][0]} * d.x + std::int64_t{a.m[j][1]} * d.y + std::int64_t{a.m[j][2]} * d.z;
+            const std::int64_t column =
+                std::int64_t{a.m[0][j]} * d.x + std::int64_t{a.m[1][j]} * d.y + std::int64_t{a.m[2][j]} * d.z;
+            tally.expect(exact(turned[j]) == shift_right_half_up(exact(row), 30) &&
+                             exact(back[j]) == shift_right_half_up(exact(column), 30),
+                         bits(d.x), bits(d.y), bits(d.z));
+        }
     }
     LKS_CHECK_TALLY(tally);
 }

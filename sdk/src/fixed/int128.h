@@ -34,9 +34,6 @@ struct Int128 {
     friend constexpr bool operator>=(const Int128& a, const Int128& b) { return !(a < b); }
 };
 
-constexpr UInt128 to_uint128(std::uint64_t a) {
-    return {0, a};
-}
 constexpr Int128 to_int128(std::int64_t a) {
     return {a >> 63, static_cast<std::uint64_t>(a)};
 }

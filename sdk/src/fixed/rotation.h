@@ -123,12 +123,6 @@ constexpr Matrix3 to_matrix(Rotation q) {
              {entry(zx - wy), entry(yz + wx), entry(half - xx - yy)}}};
 }
 
-constexpr Matrix3 transpose(const Matrix3& a) {
-    return {{{a.m[0][0], a.m[1][0], a.m[2][0]},
-             {a.m[0][1], a.m[1][1], a.m[2][1]},
-             {a.m[0][2], a.m[1][2], a.m[2][2]}}};
-}
-
 // Exact products, one rounding, half up. |components| <= 2^62 (larger ones wrap where the result does not
 // fit).
 constexpr Vec3 rotate(const Matrix3& a, Vec3 v) {
@@ -167,19 +161,6 @@ constexpr Matrix3 multiply(const Matrix3& a, const Matrix3& b) {
         out.m[2][column] = d.z;
     }
     return out;
-}
-
-// The quick forms: 32-bit vectors of any format, exact sums with 30 more fraction bits.
-constexpr Vec3 rotate32(const Matrix3& a, const std::int32_t (&v)[3]) {
-    const auto sum = [&v](std::int32_t p, std::int32_t q, std::int32_t r) {
-        return std::int64_t{p} * v[0] + std::int64_t{q} * v[1] + std::int64_t{r} * v[2];
-    };
-    return {sum(a.m[0][0], a.m[0][1], a.m[0][2]), sum(a.m[1][0], a.m[1][1], a.m[1][2]),
-            sum(a.m[2][0], a.m[2][1], a.m[2][2])};
-}
-
-constexpr Vec3 rotate32_transposed(const Matrix3& a, const std::int32_t (&v)[3]) {
-    return rotate32(transpose(a), v);
 }
 
 // Between a (0 / denominator) and b (denominator / denominator), both unit: the components interpolated

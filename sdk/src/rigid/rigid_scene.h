@@ -159,7 +159,6 @@ struct RigidScene {
     std::size_t body_room() const { return body_room_; }
     std::size_t joint_room() const { return joint_room_; }
     std::size_t attachment_room() const { return attachment_room_; }
-    std::size_t object_room() const { return object_room_; }
     void free_joint(std::uint32_t index);
     void free_attachment(std::uint32_t index);
     // After joints came or went: which bodies have any, and which don't collide.
