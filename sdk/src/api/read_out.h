@@ -1,7 +1,7 @@
 // Forces from pushes.
 #pragma once
 
-#include <lockstitch/base.h>
+#include <lockstitch/fixed.h>
 
 #include <algorithm>
 

@@ -1,6 +1,5 @@
 // The nearest anchors of every vertex, by Dijkstra's algorithm from all anchors at once.
 #include <algorithm>
-#include <utility>
 
 #include "asset/create.h"
 

@@ -1,7 +1,5 @@
 #include "collide/collider_motion.h"
 
-#include <algorithm>
-
 #include "collide/extent.h"
 #include "collide/plane_motion.h"
 #include "collide/saturation.h"

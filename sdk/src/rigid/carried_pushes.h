@@ -16,16 +16,16 @@
 // stays as it is, to the bit.
 #pragma once
 
+#include "rigid/body_motion.h"
 #include "rigid/rigid_scene.h"
-#include "solver/step_rate.h"
 
 namespace lks {
 
 // How a figure's bodies move in this substep, once joints and contacts have pushed again; into
 // scene.substep_motions.
 void measure_motions(RigidScene& scene, const FigureRange& figure);
-// Once that is known of all. `least_speed`: World m/s, what is slower is left alone. How
-// much of its pushes a figure is to get more of, 30 fraction bits; into scene.figure_shares.
+// Once that is known of all. `least_speed`: World m/s, what is slower is left alone. How much of its pushes a
+// figure is to get more of, 30 fraction bits; into scene.figure_shares.
 std::int32_t share_to_add(RigidScene& scene, const FigureRange& figure, const MotionRate& rate,
                           std::int64_t least_speed);
 // Adds these shares, figure by figure. Where one has changed what its neighbours know, theirs are found anew.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "collide/saturation.h"
 #include "rigid/articulation.h"
 #include "rigid/articulation_algebra.h"
 #include "rigid/articulation_walk.h"

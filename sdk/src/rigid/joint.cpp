@@ -1,7 +1,5 @@
 #include "rigid/joint.h"
 
-#include <algorithm>
-
 #include "collide/saturation.h"
 #include "rigid/joint_distance.h"
 #include "rigid/joint_drive.h"

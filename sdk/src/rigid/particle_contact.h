@@ -9,7 +9,6 @@
 #include "rigid/particle_pushes.h"
 #include "rigid/swept_particles.h"
 #include "solver/object.h"
-#include "solver/step_rate.h"
 
 namespace lks {
 

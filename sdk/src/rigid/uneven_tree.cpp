@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "collide/saturation.h"
 #include "rigid/articulation_joint.h"
 #include "rigid/articulation_walk.h"
 

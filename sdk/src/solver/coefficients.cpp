@@ -1,7 +1,6 @@
 #include "solver/coefficients.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "asset/rope_solver.h"
 #include "fixed/formats.h"

@@ -1,7 +1,6 @@
 #include "solver/world.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "collide/second_look.h"
 #include "solver/kept_rope.h"
