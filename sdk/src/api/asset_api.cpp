@@ -202,34 +202,4 @@ uint32_t lks_asset_vertex_tethers(const lks_asset* asset, uint32_t vertex,
     return found;
 }
 
-const char* lks_result_text(lks_result result) {
-    switch (result) {
-    case LKS_OK:
-        return "ok";
-    case LKS_ERROR_NULL_ARGUMENT:
-        return "null argument";
-    case LKS_ERROR_INVALID_ARGUMENT:
-        return "invalid argument";
-    case LKS_ERROR_STRUCT_SIZE:
-        return "wrong struct size";
-    case LKS_ERROR_STALE_ID:
-        return "stale id";
-    case LKS_ERROR_OUT_OF_MEMORY:
-        return "out of memory";
-    case LKS_ERROR_BUFFER_TOO_SMALL:
-        return "buffer too small";
-    case LKS_ERROR_MISALIGNED:
-        return "misaligned buffer";
-    case LKS_ERROR_CORRUPT_IMAGE:
-        return "corrupt image";
-    case LKS_ERROR_FOREIGN_IMAGE:
-        return "foreign image";
-    case LKS_ERROR_LIMIT:
-        return "limit reached";
-    case LKS_ERROR_UNSUPPORTED:
-        return "unsupported";
-    }
-    return "unknown result";
-}
-
 } // extern "C"

@@ -76,14 +76,6 @@ constexpr std::int64_t clock_units_per_tick = nanoseconds_per_second;
 
 extern "C" {
 
-uint32_t lks_version(void) {
-    return LKS_VERSION_MAJOR * 10000u + LKS_VERSION_MINOR * 100u + LKS_VERSION_PATCH;
-}
-
-uint32_t lks_solver_version(void) {
-    return LKS_SOLVER_VERSION;
-}
-
 lks_world_def lks_default_world_def(void) {
     lks_world_def def{};
     def.struct_size = sizeof(lks_world_def);
