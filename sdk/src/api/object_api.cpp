@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "api/checks.h"
+#include "api/object_checks.h"
 #include "fixed/rotation.h"
 #include "rigid/particle_touch.h"
 #include "solver/prediction.h"
@@ -12,9 +12,6 @@
 using namespace lks;
 
 namespace {
-
-constexpr lks_fixed factor_limit = LKS_FIXED(100);
-constexpr lks_fixed damping_limit = LKS_FIXED(1000);
 
 lks_result check_object_def(const lks_world& world, const lks_object_def& def) {
     if (def.asset == nullptr) {
@@ -37,15 +34,10 @@ lks_result check_object_def(const lks_world& world, const lks_object_def& def) {
         return world.fail(LKS_ERROR_INVALID_ARGUMENT,
                           out_of_range("object's velocity", def.velocity, "m/s", speed_limit));
     }
-    if (!within(def.gravity_factor, factor_limit)) {
-        return world.fail(LKS_ERROR_INVALID_ARGUMENT, out_of_range("gravity_factor", def.gravity_factor, "",
-                                                                   -factor_limit, factor_limit));
+    if (const lks_result result = check_gravity_factor(world, def.gravity_factor); result != LKS_OK) {
+        return result;
     }
-    if (def.linear_damping < 0 || def.linear_damping > damping_limit) {
-        return world.fail(LKS_ERROR_INVALID_ARGUMENT, out_of_range("linear_damping", def.linear_damping,
-                                                                   " per second", 0, damping_limit));
-    }
-    return LKS_OK;
+    return check_linear_damping(world, def.linear_damping);
 }
 
 void place_particles(Object& object, const lks_object_def& def, const StepRate& rate) {

@@ -2,7 +2,7 @@
 #include <lockstitch/object.h>
 
 #include "api/attachment_checks.h"
-#include "api/checks.h"
+#include "api/object_checks.h"
 #include "rigid/coupling.h"
 #include "solver/local_frame.h"
 #include "solver/prediction.h"
@@ -11,9 +11,6 @@
 using namespace lks;
 
 namespace {
-
-constexpr lks_fixed factor_limit = LKS_FIXED(100);
-constexpr lks_fixed damping_limit = LKS_FIXED(1000);
 
 // The object and the particle of a vertex; null, with the result reported, where either does not exist.
 Object* require_particle(lks_world* world, lks_object_id id, std::uint32_t vertex, std::uint32_t& particle,
@@ -69,12 +66,11 @@ lks_result lks_object_set_gravity_factor(lks_world* world, lks_object_id object,
     if (found == nullptr) {
         return result;
     }
-    if (!within(factor, factor_limit)) {
-        return world->fail(LKS_ERROR_INVALID_ARGUMENT,
-                           out_of_range("gravity factor", factor, "", -factor_limit, factor_limit));
+    result = check_gravity_factor(*world, factor);
+    if (result == LKS_OK) {
+        found->gravity_factor = factor;
     }
-    found->gravity_factor = factor;
-    return LKS_OK;
+    return result;
 }
 
 lks_result lks_object_set_linear_damping(lks_world* world, lks_object_id object, lks_fixed damping) {
@@ -83,12 +79,11 @@ lks_result lks_object_set_linear_damping(lks_world* world, lks_object_id object,
     if (found == nullptr) {
         return result;
     }
-    if (damping < 0 || damping > damping_limit) {
-        return world->fail(LKS_ERROR_INVALID_ARGUMENT,
-                           out_of_range("linear damping", damping, " per second", 0, damping_limit));
+    result = check_linear_damping(*world, damping);
+    if (result == LKS_OK) {
+        found->linear_damping = damping;
     }
-    found->linear_damping = damping;
-    return LKS_OK;
+    return result;
 }
 
 lks_result lks_object_set_velocity(lks_world* world, lks_object_id object, uint32_t vertex,

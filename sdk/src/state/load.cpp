@@ -2,8 +2,8 @@
 // the world has not got, the second cannot fail.
 #include <algorithm>
 
-#include "api/checks.h"
 #include "api/collider_checks.h"
+#include "api/object_checks.h"
 #include "state/attachment_image.h"
 #include "state/bytes.h"
 #include "state/hash.h"
@@ -316,8 +316,8 @@ private:
                image.constraint_count == (image.record_forces != 0 ? asset.constraint_count() : 0) &&
                image.pin_count <= image.vertex_count &&
                image.recorded_pin_count <= (image.record_forces != 0 ? image.vertex_count : 0) &&
-               within(image.gravity_factor, LKS_FIXED(100)) && image.linear_damping >= 0 &&
-               image.linear_damping <= LKS_FIXED(1000) && within(image.origin, world_position_limit);
+               gravity_factor_is_valid(image.gravity_factor) &&
+               linear_damping_is_valid(image.linear_damping) && within(image.origin, world_position_limit);
     }
 
     static bool pins_are_valid(ByteReader& in, const ImageObject& image) {
