@@ -38,4 +38,19 @@ private:
     Hash& hash_;
 };
 
+template <typename Io, typename Vector>
+void vector_fields(Io& io, Vector& v) {
+    io.i64(v.x);
+    io.i64(v.y);
+    io.i64(v.z);
+}
+
+template <typename Io, typename Rotation>
+void rotation_fields(Io& io, Rotation& q) {
+    io.i32(q.x);
+    io.i32(q.y);
+    io.i32(q.z);
+    io.i32(q.w);
+}
+
 } // namespace lks

@@ -5,30 +5,12 @@
 #include "api/collider_checks.h"
 #include "api/object_checks.h"
 #include "state/attachment_image.h"
-#include "state/bytes.h"
-#include "state/hash.h"
+#include "state/collider_fields.h"
 #include "state/image.h"
 #include "state/rigid_image.h"
 
 namespace lks {
 namespace {
-
-fixed::Vec3 read_vector(ByteReader& in) {
-    fixed::Vec3 value{};
-    value.x = in.i64();
-    value.y = in.i64();
-    value.z = in.i64();
-    return value;
-}
-
-fixed::Rotation read_rotation(ByteReader& in) {
-    fixed::Rotation value{};
-    value.x = static_cast<std::int32_t>(in.u32());
-    value.y = static_cast<std::int32_t>(in.u32());
-    value.z = static_cast<std::int32_t>(in.u32());
-    value.w = static_cast<std::int32_t>(in.u32());
-    return value;
-}
 
 ImageHeader read_header(ByteReader& in) {
     ImageHeader header{};
@@ -48,7 +30,8 @@ ImageHeader read_header(ByteReader& in) {
     header.contact_count = in.u32();
     header.attachment_slots = in.u32();
     header.tick = in.u64();
-    header.gravity = read_vector(in);
+    Reading reading(in);
+    vector_fields(reading, header.gravity);
     return header;
 }
 
@@ -62,33 +45,23 @@ ImageObject read_object(ByteReader& in) {
     object.recorded_pin_count = in.u64();
     object.gravity_factor = in.i64();
     object.linear_damping = in.i64();
-    object.origin = read_vector(in);
+    Reading reading(in);
+    vector_fields(reading, object.origin);
     return object;
 }
 
 Pin read_pin(ByteReader& in) {
-    const std::uint64_t particle = in.u64();
-    const fixed::Vec3 target = read_vector(in);
-    const std::uint32_t narrowed = particle > UINT32_MAX ? UINT32_MAX : static_cast<std::uint32_t>(particle);
-    return Pin{narrowed, 0, {target.x, target.y, target.z}};
+    Pin pin{};
+    pin.particle = static_cast<std::uint32_t>(std::min<std::uint64_t>(in.u64(), UINT32_MAX));
+    Reading reading(in);
+    vector_fields(reading, pin.target);
+    return pin;
 }
 
 ColliderState read_collider(ByteReader& in) {
     ColliderState collider{};
-    collider.shape.kind = in.u32();
-    collider.filter.category = in.u32();
-    collider.filter.mask = in.u32();
-    collider.filter.group = static_cast<std::int32_t>(in.u32());
-    collider.shape.radius = in.i64();
-    collider.shape.half_length = in.i64();
-    collider.shape.half_extents = read_vector(in);
-    collider.static_friction = in.i64();
-    collider.dynamic_friction = in.i64();
-    collider.restitution = in.i64();
-    collider.position = read_vector(in);
-    collider.target_position = read_vector(in);
-    collider.rotation = read_rotation(in);
-    collider.target_rotation = read_rotation(in);
+    Reading reading(in);
+    collider_fields(reading, collider);
     return collider;
 }
 

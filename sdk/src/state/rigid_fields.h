@@ -5,23 +5,9 @@
 
 #include "rigid/make_body.h"
 #include "rigid/rigid_scene.h"
+#include "state/field_io.h"
 
 namespace lks {
-
-template <typename Io, typename Vector>
-void vector_fields(Io& io, Vector& v) {
-    io.i64(v.x);
-    io.i64(v.y);
-    io.i64(v.z);
-}
-
-template <typename Io, typename Rotation>
-void rotation_fields(Io& io, Rotation& q) {
-    io.i32(q.x);
-    io.i32(q.y);
-    io.i32(q.z);
-    io.i32(q.w);
-}
 
 template <typename Io>
 void quaternion_fields(Io& io, Quaternion& q) {

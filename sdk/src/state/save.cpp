@@ -1,22 +1,10 @@
 #include "state/attachment_image.h"
-#include "state/byte_writer.h"
+#include "state/collider_fields.h"
 #include "state/image.h"
 #include "state/rigid_image.h"
 
 namespace lks {
 namespace {
-
-void write_vector(ByteWriter& out, const fixed::Vec3& value) {
-    out.i64(value.x);
-    out.i64(value.y);
-    out.i64(value.z);
-}
-
-void write_rotation(ByteWriter& out, const fixed::Rotation& value) {
-    for (const std::int32_t part : {value.x, value.y, value.z, value.w}) {
-        out.u32(static_cast<std::uint32_t>(part));
-    }
-}
 
 std::size_t object_size(const Object& object) {
     return image_object_size + object.pins().size() * image_pin_size +
@@ -26,6 +14,7 @@ std::size_t object_size(const Object& object) {
 }
 
 void write_object(ByteWriter& out, const Object& object) {
+    Writing writing(out);
     out.u64(object.asset().fingerprint);
     out.u32(object.count());
     out.u32(object.record_forces ? 1 : 0);
@@ -34,10 +23,10 @@ void write_object(ByteWriter& out, const Object& object) {
     out.u64(object.recorded_pins.size());
     out.i64(object.gravity_factor);
     out.i64(object.linear_damping);
-    write_vector(out, object.origin);
+    vector_fields(writing, object.origin);
     for (const Pin& pin : object.pins()) {
         out.u64(pin.particle);
-        write_vector(out, {pin.target.x, pin.target.y, pin.target.z});
+        vector_fields(writing, pin.target);
     }
     for (int i = 0; i < axis_count; ++i) {
         out.i64_array(object.axis(i), object.count());
@@ -48,23 +37,6 @@ void write_object(ByteWriter& out, const Object& object) {
             out.u64(particle);
         }
     }
-}
-
-void write_collider(ByteWriter& out, const ColliderState& collider) {
-    out.u32(collider.shape.kind);
-    out.u32(collider.filter.category);
-    out.u32(collider.filter.mask);
-    out.u32(static_cast<std::uint32_t>(collider.filter.group));
-    out.i64(collider.shape.radius);
-    out.i64(collider.shape.half_length);
-    write_vector(out, collider.shape.half_extents);
-    out.i64(collider.static_friction);
-    out.i64(collider.dynamic_friction);
-    out.i64(collider.restitution);
-    write_vector(out, collider.position);
-    write_vector(out, collider.target_position);
-    write_rotation(out, collider.rotation);
-    write_rotation(out, collider.target_rotation);
 }
 
 } // namespace
@@ -84,6 +56,7 @@ void write_image(const lks_world& world, unsigned char* memory) {
     const std::size_t size = image_size(world);
     Hash checksum(*world.kernels);
     ByteWriter out(memory + image_checked_from, checksum);
+    Writing writing(out);
     out.u32(world.rate.ticks_per_second);
     out.u32(world.rate.substeps);
     out.u32(world.rate.iterations);
@@ -96,7 +69,7 @@ void write_image(const lks_world& world, unsigned char* memory) {
     out.u32(counts.memories);
     out.u32(static_cast<std::uint32_t>(world.rigid.attachments.size()));
     out.u64(world.tick);
-    write_vector(out, world.gravity);
+    vector_fields(writing, world.gravity);
     for (const ObjectSlot& slot : world.objects) {
         out.u32(slot.generation);
         out.u32(slot.object != nullptr ? 1 : 0);
@@ -108,7 +81,7 @@ void write_image(const lks_world& world, unsigned char* memory) {
         out.u32(slot.generation);
         out.u32(slot.used ? 1 : 0);
         if (slot.used) {
-            write_collider(out, slot.collider);
+            collider_fields(writing, slot.collider);
         }
     }
     write_rigid(out, world.rigid);

@@ -1,39 +1,27 @@
 #include "state/state_hash.h"
 
 #include "state/attachment_image.h"
-#include "state/hash.h"
+#include "state/field_io.h"
 #include "state/rigid_image.h"
 
 namespace lks {
 namespace {
 
-void add_vector(Hash& hash, const fixed::Vec3& value) {
-    hash.add_i64(value.x);
-    hash.add_i64(value.y);
-    hash.add_i64(value.z);
-}
-
-void add_rotation(Hash& hash, const fixed::Rotation& value) {
-    for (const std::int32_t part : {value.x, value.y, value.z, value.w}) {
-        hash.add_u32(static_cast<std::uint32_t>(part));
-    }
-}
-
 // A collider's motion within the next tick is local, its place is not.
 void add_collider(Hash& hash, const ColliderState& collider, bool local) {
+    Hashing hashing(hash);
+    const fixed::Vec3 motion = collider.target_position - collider.position;
     hash.add_u32(collider.shape.kind);
     hash.add_i64(collider.shape.radius);
     hash.add_i64(collider.shape.half_length);
-    add_vector(hash, collider.shape.half_extents);
+    vector_fields(hashing, collider.shape.half_extents);
     hash.add_i64(collider.static_friction);
     hash.add_i64(collider.dynamic_friction);
-    add_rotation(hash, collider.rotation);
-    add_rotation(hash, collider.target_rotation);
-    add_vector(hash, {collider.target_position.x - collider.position.x,
-                      collider.target_position.y - collider.position.y,
-                      collider.target_position.z - collider.position.z});
+    rotation_fields(hashing, collider.rotation);
+    rotation_fields(hashing, collider.target_rotation);
+    vector_fields(hashing, motion);
     if (!local) {
-        add_vector(hash, collider.position);
+        vector_fields(hashing, collider.position);
     }
     // A collider that neither throws back nor chooses has the hash that it had before any could.
     if (collider.restitution != 0 || !is_default_filter(collider.filter)) {
@@ -48,6 +36,7 @@ void add_collider(Hash& hash, const ColliderState& collider, bool local) {
 
 std::uint64_t hash_object(const Object& object, const Kernels& kernels) {
     Hash hash(kernels);
+    Hashing hashing(hash);
     hash.add_u64(object.asset().fingerprint);
     hash.add_i64(object.gravity_factor);
     hash.add_i64(object.linear_damping);
@@ -55,7 +44,7 @@ std::uint64_t hash_object(const Object& object, const Kernels& kernels) {
     hash.add_u32(static_cast<std::uint32_t>(object.pins().size()));
     for (const Pin& pin : object.pins()) {
         hash.add_u64(pin.particle);
-        add_vector(hash, {pin.target.x, pin.target.y, pin.target.z});
+        vector_fields(hashing, pin.target);
     }
     for (int i = 0; i < axis_count; ++i) {
         hash.add_i64_array(object.axis(i), object.count());
@@ -69,11 +58,12 @@ std::uint64_t hash_object(const Object& object, const Kernels& kernels) {
 
 std::uint64_t hash_world(const lks_world& world, bool local) {
     Hash hash(*world.kernels);
+    Hashing hashing(hash);
     hash.add_u32(world.rate.ticks_per_second);
     hash.add_u32(world.rate.substeps);
     hash.add_u32(world.rate.iterations);
     hash.add_u64(world.tick);
-    add_vector(hash, world.gravity);
+    vector_fields(hashing, world.gravity);
     hash.add_u32(static_cast<std::uint32_t>(world.objects.size()));
     for (const ObjectSlot& slot : world.objects) {
         hash.add_u32(slot.generation);
@@ -81,7 +71,7 @@ std::uint64_t hash_world(const lks_world& world, bool local) {
         if (slot.object != nullptr) {
             hash.add_u64(hash_object(*slot.object, *world.kernels));
             if (!local) {
-                add_vector(hash, slot.object->origin);
+                vector_fields(hashing, slot.object->origin);
             }
         }
     }
