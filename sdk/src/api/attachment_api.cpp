@@ -68,16 +68,8 @@ lks_attachment_def lks_default_attachment_def(void) {
 
 lks_result lks_world_add_attachment(lks_world* world, const lks_attachment_def* def,
                                     lks_attachment_id* attachment) {
-    if (world == nullptr) {
-        return LKS_ERROR_NULL_ARGUMENT;
-    }
-    if (def == nullptr || attachment == nullptr) {
-        return world->fail(LKS_ERROR_NULL_ARGUMENT,
-                           null_argument("lks_world_add_attachment", def == nullptr ? "def" : "attachment"));
-    }
-    if (def->struct_size != sizeof(lks_attachment_def)) {
-        return world->fail(LKS_ERROR_STRUCT_SIZE,
-                           wrong_struct_size("attachment_def", def->struct_size, sizeof(lks_attachment_def)));
+    if (const lks_result result = check_addition(world, "attachment", def, attachment); result != LKS_OK) {
+        return result;
     }
     if (const lks_result result = check_attachment_def(*world, *def); result != LKS_OK) {
         return result;
@@ -104,7 +96,7 @@ lks_result lks_world_add_attachment(lks_world* world, const lks_attachment_def* 
                            Sentence() << "A world holds at most " << LKS_MAX_ATTACHMENTS << " attachments.");
     }
     if (index >= scene.attachment_room() &&
-        !scene.reserve_attachments(std::max<std::size_t>(16, 2 * scene.attachments.size()))) {
+        !scene.reserve_attachments(grown_room(scene.attachments.size()))) {
         return world->fail_out_of_memory("an attachment");
     }
     if (index == scene.attachment_slots.size()) {

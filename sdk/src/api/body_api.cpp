@@ -21,8 +21,7 @@ bool reserve_slot(lks_world& world, std::uint32_t index) {
     if (index < world.rigid.body_room()) {
         return true;
     }
-    const std::size_t capacity = std::max<std::size_t>(16, 2 * world.rigid.bodies.size());
-    return world.rigid.reserve(capacity, world.colliders.capacity());
+    return world.rigid.reserve(grown_room(world.rigid.bodies.size()), world.colliders.capacity());
 }
 
 void forget_joints(RigidScene& scene, std::uint32_t body) {
@@ -105,16 +104,8 @@ lks_body_shape lks_default_body_shape(void) {
 }
 
 lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_body_id* body) {
-    if (world == nullptr) {
-        return LKS_ERROR_NULL_ARGUMENT;
-    }
-    if (def == nullptr || body == nullptr) {
-        return world->fail(LKS_ERROR_NULL_ARGUMENT,
-                           null_argument("lks_world_add_body", def == nullptr ? "def" : "body"));
-    }
-    if (def->struct_size != sizeof(lks_body_def)) {
-        return world->fail(LKS_ERROR_STRUCT_SIZE,
-                           wrong_struct_size("body_def", def->struct_size, sizeof(lks_body_def)));
+    if (const lks_result result = check_addition(world, "body", def, body); result != LKS_OK) {
+        return result;
     }
     if (const lks_result result = check_body_def(*world, *def); result != LKS_OK) {
         return result;

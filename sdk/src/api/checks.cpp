@@ -28,6 +28,17 @@ Sentence wrong_struct_size(const char* type, std::uint32_t given, std::size_t ex
                       << "; start from lks_default_ and the type's name.";
 }
 
+lks_result check_addition_arguments(const lks_world* world, const char* what, bool has_def, bool has_id) {
+    if (world == nullptr) {
+        return LKS_ERROR_NULL_ARGUMENT;
+    }
+    if (has_def && has_id) {
+        return LKS_OK;
+    }
+    const Sentence function = Sentence() << "lks_world_add_" << what;
+    return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument(function.text(), has_def ? what : "def"));
+}
+
 lks_result check_numbers(const lks_world& world, const Number* numbers, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         const Number& n = numbers[i];

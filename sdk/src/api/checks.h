@@ -58,6 +58,21 @@ Sentence out_of_range(const char* name, std::int64_t value, const char* unit, st
 Sentence null_argument(const char* function, const char* name);
 Sentence wrong_struct_size(const char* type, std::uint32_t given, std::size_t expected);
 
+// Whether a call named lks_world_add_ and this has a world, a definition and a place for the new id: LKS_OK,
+// or reported where there is a world to report to.
+lks_result check_addition_arguments(const lks_world* world, const char* what, bool has_def, bool has_id);
+
+// The same, and whether the definition was made by this library.
+template <typename Def, typename Id>
+lks_result check_addition(const lks_world* world, const char* what, const Def* def, const Id* id) {
+    const lks_result result = check_addition_arguments(world, what, def != nullptr, id != nullptr);
+    if (result != LKS_OK || def->struct_size == sizeof(Def)) {
+        return result;
+    }
+    const Sentence type = Sentence() << what << "_def";
+    return world->fail(LKS_ERROR_STRUCT_SIZE, wrong_struct_size(type.text(), def->struct_size, sizeof(Def)));
+}
+
 // The object; null, with the result, where there is no world, or reported where the id is stale.
 Object* require_object(const lks_world* world, lks_object_id id, lks_result& result);
 

@@ -1,7 +1,6 @@
 // lockstitch/collider.h.
 #include <lockstitch/collider.h>
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "api/checks.h"
@@ -61,8 +60,7 @@ bool reserve_slot(lks_world& world, std::uint32_t index) {
     if (index < world.colliders.capacity()) {
         return true;
     }
-    const std::size_t capacity = std::max<std::size_t>(16, 2 * world.colliders.size());
-    return world.reserve_colliders(capacity);
+    return world.reserve_colliders(grown_room(world.colliders.size()));
 }
 
 lks_result check_transform(const lks_world& world, const lks_transform& transform) {
@@ -104,16 +102,8 @@ lks_collider_def lks_default_collider_def(void) {
 }
 
 lks_result lks_world_add_collider(lks_world* world, const lks_collider_def* def, lks_collider_id* collider) {
-    if (world == nullptr) {
-        return LKS_ERROR_NULL_ARGUMENT;
-    }
-    if (def == nullptr || collider == nullptr) {
-        return world->fail(LKS_ERROR_NULL_ARGUMENT,
-                           null_argument("lks_world_add_collider", def == nullptr ? "def" : "collider"));
-    }
-    if (def->struct_size != sizeof(lks_collider_def)) {
-        return world->fail(LKS_ERROR_STRUCT_SIZE,
-                           wrong_struct_size("collider_def", def->struct_size, sizeof(lks_collider_def)));
+    if (const lks_result result = check_addition(world, "collider", def, collider); result != LKS_OK) {
+        return result;
     }
     if (const lks_result result = check_collider_def(*world, *def); result != LKS_OK) {
         return result;

@@ -139,16 +139,8 @@ lks_joint_def lks_default_joint_def(void) {
 }
 
 lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_joint_id* joint) {
-    if (world == nullptr) {
-        return LKS_ERROR_NULL_ARGUMENT;
-    }
-    if (def == nullptr || joint == nullptr) {
-        return world->fail(LKS_ERROR_NULL_ARGUMENT,
-                           null_argument("lks_world_add_joint", def == nullptr ? "def" : "joint"));
-    }
-    if (def->struct_size != sizeof(lks_joint_def)) {
-        return world->fail(LKS_ERROR_STRUCT_SIZE,
-                           wrong_struct_size("joint_def", def->struct_size, sizeof(lks_joint_def)));
+    if (const lks_result result = check_addition(world, "joint", def, joint); result != LKS_OK) {
+        return result;
     }
     if (const lks_result result = check_joint_def(*world, *def); result != LKS_OK) {
         return result;
@@ -159,8 +151,7 @@ lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_j
         return world->fail(LKS_ERROR_LIMIT, Sentence()
                                                 << "A world holds at most " << LKS_MAX_JOINTS << " joints.");
     }
-    if (index >= scene.joint_room() &&
-        !scene.reserve_joints(std::max<std::size_t>(16, 2 * scene.joints.size()))) {
+    if (index >= scene.joint_room() && !scene.reserve_joints(grown_room(scene.joints.size()))) {
         return world->fail_out_of_memory("a joint");
     }
     if (index == scene.joint_slots.size()) {

@@ -69,7 +69,7 @@ bool reserve_slot(lks_world& world, std::uint32_t index) {
         return true;
     }
     if (world.objects.size() == world.objects.capacity()) {
-        const std::size_t capacity = std::max<std::size_t>(16, 2 * world.objects.size());
+        const std::size_t capacity = grown_room(world.objects.size());
         return world.load_staging.reserve(capacity) && world.rigid.reserve_objects(capacity) &&
                world.objects.reserve(capacity);
     }
@@ -94,16 +94,8 @@ lks_object_def lks_default_object_def(void) {
 }
 
 lks_result lks_world_add_object(lks_world* world, const lks_object_def* def, lks_object_id* object) {
-    if (world == nullptr) {
-        return LKS_ERROR_NULL_ARGUMENT;
-    }
-    if (def == nullptr || object == nullptr) {
-        return world->fail(LKS_ERROR_NULL_ARGUMENT,
-                           null_argument("lks_world_add_object", def == nullptr ? "def" : "object"));
-    }
-    if (def->struct_size != sizeof(lks_object_def)) {
-        return world->fail(LKS_ERROR_STRUCT_SIZE,
-                           wrong_struct_size("object_def", def->struct_size, sizeof(lks_object_def)));
+    if (const lks_result result = check_addition(world, "object", def, object); result != LKS_OK) {
+        return result;
     }
     if (const lks_result result = check_object_def(*world, *def); result != LKS_OK) {
         return result;

@@ -1,6 +1,7 @@
 // Places for objects, colliders, bodies and joints, which ids name by index and generation.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace lks {
@@ -34,6 +35,12 @@ std::uint32_t first_free(const Slots& slots, const IsFree& is_free) {
 template <typename Slots>
 std::uint32_t first_free(const Slots& slots) {
     return first_free(slots, [](const auto& slot) { return !slot.used; });
+}
+
+// Room for what is added where there is none left: as much again, so that many cost no more than their
+// number.
+constexpr std::size_t grown_room(std::size_t count) {
+    return count < 8 ? 16 : 2 * count;
 }
 
 template <typename Slots>
