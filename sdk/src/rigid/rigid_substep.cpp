@@ -626,19 +626,25 @@ void RigidSubstep::mark_contacts() {
     });
 }
 
-void RigidSubstep::finish(std::uint32_t substep) {
-    if (any_restitution_) {
-        scene_.predicted_speeds.clear();
-        for (const Body& body : scene_.bodies) {
-            scene_.predicted_speeds.push_reserved(body.speeds());
-        }
+// Before impacts change them.
+void RigidSubstep::keep_predicted_speeds() {
+    scene_.predicted_speeds.clear();
+    for (const Body& body : scene_.bodies) {
+        scene_.predicted_speeds.push_reserved(body.speeds());
     }
+}
+
+void RigidSubstep::finish_bodies() {
     run_each(team_, scene_.bodies.size(), bodies_a_block, [&](std::uint32_t i, std::uint32_t worker) {
         if (scene_.bodies[i].is_awake()) {
             finish_body(scene_.bodies[i], scene_.descriptions[i], rate_,
                         world_.scratch[worker].counters.speed_clamps);
         }
     });
+}
+
+// What they gained is taken out again. Where ropes bear a figure these move, too: the caller alone.
+void RigidSubstep::finish_figures(std::uint32_t substep) {
     in_figures([&](FigureRange& figure) {
         free_figures_.finish_substep(figure, substep);
         if ((figure.is_held || (figure.has_held_tree && !figure.is_loaded)) && may_gain(figure)) {
@@ -650,21 +656,21 @@ void RigidSubstep::finish(std::uint32_t substep) {
             take_out_gain_on_ropes(world_, figure, rate_);
         }
     }
-    if (world_.event_log.wants_contacts()) {
-        in_contact_blocks([this](std::uint32_t first, std::uint32_t end) {
-            for (std::uint32_t i = first; i < end; ++i) {
-                if (scene_.acts(i)) {
-                    add_up_pushes(scene_.contacts[i], rate_);
-                }
+}
+
+// For events.
+void RigidSubstep::add_up_contact_pushes() {
+    in_contact_blocks([this](std::uint32_t first, std::uint32_t end) {
+        for (std::uint32_t i = first; i < end; ++i) {
+            if (scene_.acts(i)) {
+                add_up_pushes(scene_.contacts[i], rate_);
             }
-        });
-    }
-    if (any_restitution_) {
-        restore_speeds();
-    }
-    if (world_.event_log.wants_contacts()) {
-        mark_contacts();
-    }
+        }
+    });
+}
+
+// What joints are off, and deep overlaps, without giving speed.
+void RigidSubstep::undo_errors() {
     const auto undo = [this](std::uint32_t i) {
         if (scene_.acts(i)) {
             undo_overlap(scene_.contacts[i], bodies_of(scene_.contacts[i]), rate_);
@@ -684,6 +690,24 @@ void RigidSubstep::finish(std::uint32_t substep) {
     }
     in_bundles([this](const FigureBundle& bundle) { in_trees(bundle, undo_bundle, undo_articulation); });
     for_each_loaded_rope(scene_, [this](std::uint32_t object) { undo_rope_loads(world_, object); });
+}
+
+void RigidSubstep::finish(std::uint32_t substep) {
+    if (any_restitution_) {
+        keep_predicted_speeds();
+    }
+    finish_bodies();
+    finish_figures(substep);
+    if (world_.event_log.wants_contacts()) {
+        add_up_contact_pushes();
+    }
+    if (any_restitution_) {
+        restore_speeds();
+    }
+    if (world_.event_log.wants_contacts()) {
+        mark_contacts();
+    }
+    undo_errors();
     for_each_attachment(world_,
                         [](Attachment& attachment, const AttachmentSides&) { finish_substep(attachment); });
 }

@@ -77,6 +77,11 @@ private:
     void project_attachments();
     void project_loaded_ropes();
     void collide_objects(std::uint32_t substep);
+    void keep_predicted_speeds();
+    void finish_bodies();
+    void finish_figures(std::uint32_t substep);
+    void add_up_contact_pushes();
+    void undo_errors();
     void finish(std::uint32_t substep);
 
     lks_world& world_;
