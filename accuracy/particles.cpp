@@ -276,6 +276,94 @@ struct Measurer {
     }
 };
 
+// In the order of Measurer::row_of.
+std::vector<Quantity> quantities_of(const MeasuredScene& measured) {
+    std::vector<Quantity> quantities = {
+        {"stretch, worst", "%",
+         "the most that any inextensible constraint is off its length in any tick; 0 is right", 1},
+        {"stretch, mean", "%",
+         "how far inextensible constraints are off their length, on the average over constraints and ticks; "
+         "0 is right",
+         0.1},
+        {"deviation", "m",
+         "the farthest that any particle is from the converged solution after " +
+             seconds_of(measured.deviation_tick),
+         0.05},
+        {"rounding", "m",
+         "the farthest that any particle is after " + seconds_of(measured.deviation_tick) +
+             " from where the same method in double precision has it at the same setting",
+         0, 2}};
+    quantities.push_back({"sag", "m",
+                          std::string("how far ") + measured.sag_of + " is from its right height at the end",
+                          0.05});
+    if (measured.is_pinned()) {
+        quantities.push_back({"support force, a tick", "%",
+                              "root mean square error of what the pin bears as it is read at the "
+                              "end of a tick, relative to it",
+                              20});
+        quantities.push_back(
+            {"support force, mean", "%", "error of the mean of all readings of what the pin bears", 5});
+    }
+    quantities.push_back(
+        {"energy drift", "%",
+         std::string(measured.keeps_energy ? "energy gained or lost at the end"
+                                           : "how far the energy at the end is from the right one") +
+             ", relative to what the whole would get by falling through its length",
+         5});
+    for (const int tick : measured.later_ticks) {
+        const std::string when = seconds_of(tick);
+        const int deviation = static_cast<int>(quantities.size());
+        quantities.push_back(
+            {"deviation, " + when, "m",
+             "the farthest that any particle is from the converged solution, a rope at once, after " + when});
+        quantities.push_back({"rounding, " + when, "m",
+                              "the farthest that any particle is after " + when +
+                                  " from where the same method in double precision has it",
+                              0, deviation});
+    }
+    return quantities;
+}
+
+Trace trace_of(Engine engine, const MeasuredScene& measured, const reference::Model& stiff,
+               const reference::Schedule& schedule) {
+    Trace found = trace(*simulate(engine, measured.scene, schedule), measured, stiff);
+    if (measured.is_pinned() && measured.scene.tethers == 0 && engine != Engine::pbd) {
+        found.forces = forces_of(engine, measured, schedule);
+    }
+    return found;
+}
+
+// Those of our own engines; the scene may be solved at once or tethered, and `suffix` says so.
+void add_own_rows(std::vector<Row>& rows, const Measurer& measurer, const MeasuredScene& scene,
+                  const reference::Schedule& schedule, const std::string& suffix) {
+    const Trace twin = trace_of(Engine::double_precision, scene, measurer.stiff, schedule);
+    for (const Engine engine : {Engine::fixed_point, Engine::single_precision}) {
+        const Trace found = trace_of(engine, scene, measurer.stiff, schedule);
+        rows.push_back(measurer.row_of(name_of(engine) + suffix, schedule, found, &twin));
+    }
+    rows.push_back(measurer.row_of(name_of(Engine::double_precision) + suffix, schedule, twin, nullptr));
+}
+
+void add_rows(std::vector<Row>& rows, const Measurer& measurer, const reference::Schedule& schedule) {
+    const MeasuredScene& measured = measurer.measured;
+    add_own_rows(rows, measurer, measured, schedule, "");
+    if (measured.is_rope()) {
+        add_own_rows(rows, measurer, at_once(measured), schedule, at_once_suffix);
+    }
+    if (measured.may_be_tethered()) {
+        add_own_rows(rows, measurer, tethered(measured), schedule, tethered_suffix);
+    }
+    // Where nothing is soft, PBD of stiffness 1 is XPBD.
+    if (measured.has_compliance) {
+        const Trace found = trace_of(Engine::pbd, measured, measurer.stiff, schedule);
+        rows.push_back(measurer.row_of(name_of(Engine::pbd), schedule, found, nullptr));
+    }
+    if (lks_bench::has_bullet()) {
+        BulletSimulation bullet(measured.scene, measurer.model, schedule);
+        rows.push_back(measurer.row_of("Bullet", schedule, trace(bullet, measured, measurer.stiff), nullptr));
+    }
+}
+
 } // namespace
 
 Grid whole_grid() {
@@ -292,49 +380,7 @@ bool has_bullet_curves() {
 
 Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, const Progress& progress) {
     Experiment experiment{measured.name, measured.title, measured.what, "particle"};
-    experiment.quantities = {
-        {"stretch, worst", "%",
-         "the most that any inextensible constraint is off its length in any tick; 0 is right", 1},
-        {"stretch, mean", "%",
-         "how far inextensible constraints are off their length, on the average over constraints and ticks; "
-         "0 is right",
-         0.1},
-        {"deviation", "m",
-         "the farthest that any particle is from the converged solution after " +
-             seconds_of(measured.deviation_tick),
-         0.05},
-        {"rounding", "m",
-         "the farthest that any particle is after " + seconds_of(measured.deviation_tick) +
-             " from where the same method in double precision has it at the same setting",
-         0, 2}};
-    experiment.quantities.push_back(
-        {"sag", "m", std::string("how far ") + measured.sag_of + " is from its right height at the end",
-         0.05});
-    if (measured.is_pinned()) {
-        experiment.quantities.push_back({"support force, a tick", "%",
-                                         "root mean square error of what the pin bears as it is read at the "
-                                         "end of a tick, relative to it",
-                                         20});
-        experiment.quantities.push_back(
-            {"support force, mean", "%", "error of the mean of all readings of what the pin bears", 5});
-    }
-    experiment.quantities.push_back(
-        {"energy drift", "%",
-         std::string(measured.keeps_energy ? "energy gained or lost at the end"
-                                           : "how far the energy at the end is from the right one") +
-             ", relative to what the whole would get by falling through its length",
-         5});
-    for (const int tick : measured.later_ticks) {
-        const std::string when = seconds_of(tick);
-        const int deviation = static_cast<int>(experiment.quantities.size());
-        experiment.quantities.push_back(
-            {"deviation, " + when, "m",
-             "the farthest that any particle is from the converged solution, a rope at once, after " + when});
-        experiment.quantities.push_back({"rounding, " + when, "m",
-                                         "the farthest that any particle is after " + when +
-                                             " from where the same method in double precision has it",
-                                         0, deviation});
-    }
+    experiment.quantities = quantities_of(measured);
     experiment.has_rounding = true;
     experiment.rounding = 3;
 
@@ -342,42 +388,9 @@ Experiment measure_particles(const MeasuredScene& measured, const Grid& grid, co
     const Measurer measurer(measured);
     const std::vector<reference::Schedule> schedules = schedules_of(grid);
     for (std::size_t i = 0; i < schedules.size(); ++i) {
-        const reference::Schedule& schedule = schedules[i];
-        progress(measured.name + ": " + label_of(schedule) + " (" + std::to_string(i + 1) + " of " +
+        progress(measured.name + ": " + label_of(schedules[i]) + " (" + std::to_string(i + 1) + " of " +
                  std::to_string(schedules.size()) + ")");
-        const auto run = [&](Engine engine, const MeasuredScene& scene) {
-            Trace found = trace(*simulate(engine, scene.scene, schedule), scene, measurer.stiff);
-            if (scene.is_pinned() && scene.scene.tethers == 0 && engine != Engine::pbd) {
-                found.forces = forces_of(engine, scene, schedule);
-            }
-            return found;
-        };
-        const auto add_ours = [&](const MeasuredScene& scene, const std::string& suffix) {
-            const Trace twin = run(Engine::double_precision, scene);
-            for (const Engine engine : {Engine::fixed_point, Engine::single_precision}) {
-                experiment.rows.push_back(
-                    measurer.row_of(name_of(engine) + suffix, schedule, run(engine, scene), &twin));
-            }
-            experiment.rows.push_back(
-                measurer.row_of(name_of(Engine::double_precision) + suffix, schedule, twin, nullptr));
-        };
-        add_ours(measured, "");
-        if (measured.is_rope()) {
-            add_ours(at_once(measured), at_once_suffix);
-        }
-        if (measured.may_be_tethered()) {
-            add_ours(tethered(measured), tethered_suffix);
-        }
-        // Where nothing is soft, PBD of stiffness 1 is XPBD.
-        if (measured.has_compliance) {
-            experiment.rows.push_back(
-                measurer.row_of(name_of(Engine::pbd), schedule, run(Engine::pbd, measured), nullptr));
-        }
-        if (lks_bench::has_bullet()) {
-            BulletSimulation bullet(measured.scene, measurer.model, schedule);
-            Row row = measurer.row_of("Bullet", schedule, trace(bullet, measured, measurer.stiff), nullptr);
-            experiment.rows.push_back(std::move(row));
-        }
+        add_rows(experiment.rows, measurer, schedules[i]);
     }
     return experiment;
 }
