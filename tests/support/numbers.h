@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "support/random.h"
+
 namespace support {
 
 struct Vector {
@@ -49,28 +51,5 @@ lks_transform at(double x, double y, double z);
 lks_transform at(const lks_vec3& position);
 lks_transform turned(const lks_transform& transform, double axis_x, double axis_y, double axis_z,
                      double degrees);
-
-// A fixed sequence (splitmix64), so that a failing test fails again.
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-
-    std::uint64_t next() {
-        state_ += 0x9e3779b97f4a7c15u;
-        std::uint64_t z = state_;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-
-    // low ≤ value ≤ high; high - low must be below 2^63.
-    std::int64_t between(std::int64_t low, std::int64_t high) {
-        const auto span = static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low) + 1;
-        return static_cast<std::int64_t>(static_cast<std::uint64_t>(low) + next() % span);
-    }
-
-private:
-    std::uint64_t state_;
-};
 
 } // namespace support

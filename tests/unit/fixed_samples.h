@@ -7,23 +7,16 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "support/random.h"
 #include "support/sanitised.h"
 
 namespace lks::test {
 
-class Random {
+class Random : public support::Random {
 public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
+    using support::Random::Random;
 
-    // Weyl sequence and finaliser (Steele, Lea, Flood: SplitMix).
-    std::uint64_t bits() {
-        state_ += 0x9e3779b97f4a7c15u;
-        std::uint64_t z = state_;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-
+    std::uint64_t bits() { return next(); }
     std::uint64_t below(std::uint64_t n) { return bits() % n; }
 
     // 0 to 2^width - 1, every bit length equally likely; one in sixteen is next to a power of two.
@@ -43,9 +36,6 @@ public:
         const std::int64_t size = static_cast<std::int64_t>(any_magnitude(width));
         return (bits() & 1) != 0 ? -size : size;
     }
-
-private:
-    std::uint64_t state_;
 };
 
 // Foreign targets are told when they are built: not all see the environment.
