@@ -63,8 +63,8 @@ inline constexpr std::size_t image_collider_size = 16 + 5 * 8 + 3 * 8 + 2 * 24 +
 std::size_t image_size(const lks_world& world);
 // Into at least image_size bytes.
 void write_image(const lks_world& world, unsigned char* memory);
-// Checks everything before it changes anything; reports what is wrong. Where particles are, and multipliers, may
-// be any numbers.
+// Checks everything before it changes anything; reports what is wrong. Where particles are, and multipliers,
+// may be any numbers.
 lks_result load_image(lks_world& world, const unsigned char* memory, std::size_t size);
 
 } // namespace lks
