@@ -110,6 +110,11 @@ lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_bod
     if (const lks_result result = check_body_def(*world, *def); result != LKS_OK) {
         return result;
     }
+    const BodyDefinition definition = plain_definition(*def);
+    const BodyDescription description = describe_body(definition);
+    if (const lks_result result = check_body_place(*world, description, def->transform); result != LKS_OK) {
+        return result;
+    }
     RigidScene& scene = world->rigid;
     const std::uint32_t index = first_free(scene.body_slots);
     if (index >= LKS_MAX_BODIES) {
@@ -125,9 +130,9 @@ lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_bod
         scene.definitions.push_reserved(BodyDefinition{});
         scene.descriptions.push_reserved(BodyDescription{});
     }
-    scene.definitions[index] = plain_definition(*def);
-    scene.descriptions[index] = describe_body(scene.definitions[index]);
-    scene.bodies[index] = make_body(scene.descriptions[index], *def);
+    scene.definitions[index] = definition;
+    scene.descriptions[index] = description;
+    scene.bodies[index] = make_body(description, *def);
     scene.body_slots[index].used = true;
     wake_touched(*world, index);
     *body = {index, scene.body_slots[index].generation};
@@ -178,7 +183,7 @@ lks_result lks_body_set_transform(lks_world* world, lks_body_id body, lks_transf
         return result;
     }
     RigidScene& scene = world->rigid;
-    if (const lks_result result = check_place(*world, scene.descriptions[body.index], transform);
+    if (const lks_result result = check_body_place(*world, scene.descriptions[body.index], transform);
         result != LKS_OK) {
         return result;
     }
@@ -254,7 +259,7 @@ lks_result lks_body_move_to(lks_world* world, lks_body_id body, lks_transform ta
     if (const lks_result result = require_body(world, body); result != LKS_OK) {
         return result;
     }
-    if (const lks_result result = check_place(*world, world->rigid.descriptions[body.index], target);
+    if (const lks_result result = check_body_place(*world, world->rigid.descriptions[body.index], target);
         result != LKS_OK) {
         return result;
     }

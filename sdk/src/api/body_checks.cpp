@@ -70,7 +70,7 @@ lks_result check_shapes(const lks_world& world, const lks_body_def& def) {
 
 } // namespace
 
-lks_result check_frame(const lks_world& world, const lks_transform& transform) {
+lks_result check_body_frame(const lks_world& world, const lks_transform& transform) {
     if (!within(transform.position, world_position_limit)) {
         return world.fail(LKS_ERROR_INVALID_ARGUMENT,
                           out_of_range("body's position", transform.position, "m", world_position_limit));
@@ -78,8 +78,8 @@ lks_result check_frame(const lks_world& world, const lks_transform& transform) {
     return check_rotation(world, transform.rotation);
 }
 
-lks_result check_place(const lks_world& world, const BodyDescription& description,
-                       const lks_transform& transform) {
+lks_result check_body_place(const lks_world& world, const BodyDescription& description,
+                            const lks_transform& transform) {
     if (const lks_result result = check_rotation(world, transform.rotation); result != LKS_OK) {
         return result;
     }
@@ -116,18 +116,14 @@ lks_result check_body_def(const lks_world& world, const lks_body_def& def) {
     // 40 fraction bits hold a milligram to a millionth, and less than that ever worse. Only what is given as
     // a number needs the bound: inertias are those of one kilogram, and densities may make lighter bodies.
     const lks_fixed least_mass = def.mass == 0 ? 0 : LKS_FIXED_RATIO(1, 1000000);
-    if (const lks_result result = check_numbers(
-            world, {Number{"body's mass", " kg", def.mass, least_mass, LKS_FIXED(1000000)},
-                    Number{"gravity factor", "", def.gravity_factor, -LKS_FIXED(100), LKS_FIXED(100)},
-                    Number{"linear damping", " 1/s", def.linear_damping, 0, LKS_FIXED(1000)},
-                    Number{"angular damping", " 1/s", def.angular_damping, 0, LKS_FIXED(1000)},
-                    Number{"static friction", "", def.static_friction, 0, LKS_FIXED(100)},
-                    Number{"dynamic friction", "", def.dynamic_friction, 0, def.static_friction},
-                    Number{"restitution", "", def.restitution, 0, LKS_FIXED_ONE}});
-        result != LKS_OK) {
-        return result;
-    }
-    return check_place(world, describe_body(plain_definition(def)), def.transform);
+    return check_numbers(world,
+                         {Number{"body's mass", " kg", def.mass, least_mass, LKS_FIXED(1000000)},
+                          Number{"gravity factor", "", def.gravity_factor, -LKS_FIXED(100), LKS_FIXED(100)},
+                          Number{"linear damping", " 1/s", def.linear_damping, 0, LKS_FIXED(1000)},
+                          Number{"angular damping", " 1/s", def.angular_damping, 0, LKS_FIXED(1000)},
+                          Number{"static friction", "", def.static_friction, 0, LKS_FIXED(100)},
+                          Number{"dynamic friction", "", def.dynamic_friction, 0, def.static_friction},
+                          Number{"restitution", "", def.restitution, 0, LKS_FIXED_ONE}});
 }
 
 lks_result check_body_velocities(const lks_world& world, const lks_vec3& velocity, const lks_vec3& spin) {

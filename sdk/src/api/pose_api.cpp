@@ -58,7 +58,7 @@ lks_result require_bodies(const lks_world* world, const lks_body_id* bodies, std
 lks_result check_pose(const lks_world& world, const lks_body_id* bodies, const lks_transform* pose,
                       std::uint32_t count, const char* when = "") {
     return check_bones(world, count, when, [&](std::uint32_t i) {
-        return check_place(world, world.rigid.descriptions[bodies[i].index], pose[i]);
+        return check_body_place(world, world.rigid.descriptions[bodies[i].index], pose[i]);
     });
 }
 
@@ -129,7 +129,7 @@ lks_result check_drive(const lks_world& world, const lks_ragdoll_def& def, const
         return result;
     }
     return check_bones(world, def.bone_count, "",
-                       [&](std::uint32_t i) { return check_frame(world, pose[i]); });
+                       [&](std::uint32_t i) { return check_body_frame(world, pose[i]); });
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "api/ragdoll_scale.h"
 #include "collide/saturation.h"
 #include "fixed/formats.h"
+#include "rigid/make_body.h"
 
 using namespace lks;
 
@@ -130,14 +131,17 @@ lks_result check_bone(const lks_world& world, const lks_ragdoll_def& def, std::u
         return check_body_def(world, bone.body);
     }
     lks_body_shape shapes[LKS_MAX_BODY_SHAPES];
-    return check_body_def(world, make_body_def(def, bone, Placement(def), shapes));
+    const lks_body_def body = make_body_def(def, bone, Placement(def), shapes);
+    const lks_result result = check_body_def(world, body);
+    return result != LKS_OK ? result
+                            : check_body_place(world, describe_body(plain_definition(body)), body.transform);
 }
 
 lks_result check_ragdoll(const lks_world& world, const lks_ragdoll_def& def) {
     if (const lks_result result = check_bone_tree(world, def); result != LKS_OK) {
         return result;
     }
-    if (const lks_result result = check_frame(world, def.transform); result != LKS_OK) {
+    if (const lks_result result = check_body_frame(world, def.transform); result != LKS_OK) {
         return result;
     }
     for (std::uint32_t i = 0; i < def.bone_count; ++i) {
