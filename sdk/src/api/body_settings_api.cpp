@@ -49,6 +49,22 @@ const BodySettings* find_settings(const lks_world* world, lks_body_id id, lks_re
     return result == LKS_OK ? &world->rigid.definitions[id.index].settings : nullptr;
 }
 
+// Of a setting that has a call to itself, where there must be something to tell it to.
+template <typename Value>
+lks_result tell_only(const lks_world* world, lks_body_id id, Value BodySettings::*setting, Value* to,
+                     const char* call, const char* argument) {
+    lks_result result = LKS_OK;
+    const BodySettings* found = find_settings(world, id, result);
+    if (found == nullptr) {
+        return result;
+    }
+    if (to == nullptr) {
+        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument(call, argument));
+    }
+    *to = found->*setting;
+    return LKS_OK;
+}
+
 void tell(std::int64_t value, lks_fixed* to) {
     if (to != nullptr) {
         *to = value;
@@ -65,16 +81,7 @@ lks_result lks_body_set_gravity_factor(lks_world* world, lks_body_id body, lks_f
 }
 
 lks_result lks_body_gravity_factor(const lks_world* world, lks_body_id body, lks_fixed* factor) {
-    lks_result result = LKS_OK;
-    const BodySettings* found = find_settings(world, body, result);
-    if (found == nullptr) {
-        return result;
-    }
-    if (factor == nullptr) {
-        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_body_gravity_factor", "factor"));
-    }
-    *factor = found->gravity_factor;
-    return LKS_OK;
+    return tell_only(world, body, &BodySettings::gravity_factor, factor, "lks_body_gravity_factor", "factor");
 }
 
 lks_result lks_body_set_damping(lks_world* world, lks_body_id body, lks_fixed linear, lks_fixed angular) {
@@ -119,16 +126,7 @@ lks_result lks_body_set_filter(lks_world* world, lks_body_id body, lks_filter fi
 }
 
 lks_result lks_body_filter(const lks_world* world, lks_body_id body, lks_filter* filter) {
-    lks_result result = LKS_OK;
-    const BodySettings* found = find_settings(world, body, result);
-    if (found == nullptr) {
-        return result;
-    }
-    if (filter == nullptr) {
-        return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_body_filter", "filter"));
-    }
-    *filter = found->filter;
-    return LKS_OK;
+    return tell_only(world, body, &BodySettings::filter, filter, "lks_body_filter", "filter");
 }
 
 lks_result lks_body_set_never_sleeps(lks_world* world, lks_body_id body, uint32_t never_sleeps) {

@@ -39,10 +39,6 @@ bool is_hinge(const Joint& joint) {
     return joint.description.kind == LKS_JOINT_HINGE;
 }
 
-bool is_limited(const Joint& joint) {
-    return joint.constants.swing_limited || joint.constants.twist_limited;
-}
-
 // Of a figure that is held: by one joint alone, at something that stands, and so that a substep of gravity is
 // short beside it: else what it gains and gives back in each swing is much.
 bool find_pivot(const RigidScene& scene, const FigureRange& figure, const MotionRate& rate,
@@ -55,7 +51,7 @@ bool find_pivot(const RigidScene& scene, const FigureRange& figure, const Motion
         const Body& b = scene.bodies[joint.description.body_b];
         found = found && turns_freely(joint);
         const bool is_inner = a.is_awake() && b.is_awake();
-        found = found && (!is_limited(joint) || (!is_inner && is_hinge(joint)));
+        found = found && (!has_limits(joint.constants) || (!is_inner && is_hinge(joint)));
         if (is_inner) {
             return;
         }

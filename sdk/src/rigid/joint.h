@@ -106,6 +106,10 @@ struct JointConstants {
     int reach;                // of turns (rigid/pair.h)
 };
 
+inline bool has_limits(const JointConstants& c) {
+    return c.swing_limited || c.twist_limited;
+}
+
 inline bool has_ellipse(const JointConstants& c) {
     return c.swing_limited && !c.swing_round;
 }

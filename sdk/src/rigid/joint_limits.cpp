@@ -248,7 +248,7 @@ void begin_limits(Joint& joint, const Body& a, const Body& b) {
 
 Vec3 along_limits(const Joint& joint, const Body& a, const Body& b, const Vec3& aim) {
     const JointConstants& c = joint.constants;
-    if (are_soft(joint) || (!c.swing_limited && !c.twist_limited)) {
+    if (are_soft(joint) || !has_limits(c)) {
         return aim;
     }
     Vec3 left = aim;

@@ -105,7 +105,7 @@ void find_motor_aim(Joint& joint) {
         return;
     }
     joint.motor_aim = joint.motor_target;
-    if (c.limits.softness != 0 || (!c.swing_limited && !c.twist_limited)) {
+    if (c.limits.softness != 0 || !has_limits(c)) {
         return;
     }
     Parts parts = parts_of(joint.motor_target);

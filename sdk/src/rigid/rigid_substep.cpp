@@ -567,7 +567,7 @@ bool RigidSubstep::may_gain(const FigureRange& figure) const {
             const JointDescription& d = scene_.joints[i].description;
             const JointConstants& c = scene_.joints[i].constants;
             loose = loose || has_spring(c) || has_ellipse(c) ||
-                    ((c.swing_limited || c.twist_limited) && (turns_fast(d.body_a) || turns_fast(d.body_b)));
+                    (has_limits(c) && (turns_fast(d.body_a) || turns_fast(d.body_b)));
         });
     }
     return has_uneven_tree(scene_, figure) || loose || figure.relieved;
