@@ -32,7 +32,7 @@ void forget_joints(RigidScene& scene, std::uint32_t body) {
             scene.free_joint(i);
         }
     }
-    scene.follow_joints();
+    scene.joints_changed();
 }
 
 // What it pushes, and is pushed by, is another now.

@@ -166,7 +166,7 @@ lks_result lks_world_add_joint(lks_world* world, const lks_joint_def* def, lks_j
     scene.joint_slots[index].used = true;
     wake(scene.bodies[made.description.body_a]);
     wake(scene.bodies[made.description.body_b]);
-    scene.follow_joints();
+    scene.joints_changed();
     *joint = {index, scene.joint_slots[index].generation};
     return LKS_OK;
 }
@@ -179,7 +179,7 @@ lks_result lks_world_remove_joint(lks_world* world, lks_joint_id joint) {
     wake(world->rigid.bodies[description.body_a]);
     wake(world->rigid.bodies[description.body_b]);
     world->rigid.free_joint(joint.index);
-    world->rigid.follow_joints();
+    world->rigid.joints_changed();
     return LKS_OK;
 }
 

@@ -339,6 +339,7 @@ void wake_touched(lks_world& world, std::uint32_t body) {
     if (scene.bodies[body].is_dynamic()) {
         return;
     }
+    scene.follow_joints();
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].asleep != 0 && !scene.are_jointed(std::min(i, body), std::max(i, body)) &&
             filters_meet(scene.descriptions[i].filter, scene.descriptions[body].filter) &&

@@ -138,6 +138,10 @@ std::span<const RopeLoad> RigidScene::rope_loads_of(std::uint32_t object) const 
 }
 
 void RigidScene::follow_joints() {
+    if (follows_joints_) {
+        return;
+    }
+    follows_joints_ = true;
     jointed.clear();
     for (Body& body : bodies) {
         body.jointed = false;

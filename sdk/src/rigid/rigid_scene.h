@@ -161,7 +161,10 @@ struct RigidScene {
     std::size_t attachment_room() const { return attachment_room_; }
     void free_joint(std::uint32_t index);
     void free_attachment(std::uint32_t index);
-    // After joints came or went: which bodies have any, and which don't collide.
+    // After joints came or went. Which bodies have any, and which don't collide, is looked for once somebody
+    // asks, not with each of many.
+    void joints_changed() { follows_joints_ = false; }
+    // Before `jointed`, of bodies too, and are_jointed are read.
     void follow_joints();
     // By a joint whose bodies don't collide; a < b.
     bool are_jointed(std::uint32_t a, std::uint32_t b) const;
@@ -190,6 +193,7 @@ private:
                                        std::size_t attachment_count);
 
     TreeKernels tree_kernels_;
+    bool follows_joints_ = true;
     std::size_t body_room_ = 0;
     std::size_t collider_room_ = 0;
     std::size_t joint_room_ = 0;

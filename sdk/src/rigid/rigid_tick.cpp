@@ -93,6 +93,7 @@ private:
     }
 
     void begin() {
+        scene_.follow_joints();
         for (Body& body : scene_.bodies) {
             body.previous_position = body.position;
             body.previous_rotation = narrow(body.orientation);
@@ -190,7 +191,7 @@ private:
             }
         }
         if (any) {
-            scene_.follow_joints();
+            scene_.joints_changed();
         }
         for (std::uint32_t i = 0; i < scene_.attachments.size(); ++i) {
             if (scene_.attachment_slots[i].used && lks::breaks(scene_.attachments[i])) {

@@ -325,7 +325,7 @@ void read_rigid(ByteReader& in, const RigidCounts& counts, const StepRate& rate,
     }
     // A joint whose bodies are others is another one, too.
     if (others) {
-        scene.follow_joints();
+        scene.joints_changed();
     }
     scene.memories.swap(scene.next_memories);
     for (const ContactMemory& memory : scene.memories) {
