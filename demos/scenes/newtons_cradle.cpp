@@ -70,7 +70,6 @@ private:
         def.static_friction = 0;
         def.dynamic_friction = 0;
         def.restitution = LKS_FIXED_ONE;
-        def.never_sleeps = 1; // a sleeper whose neighbour is struck is a wall to it in that tick
         lks_body_id ball{};
         if (!add_body("ball", def, rgb(0xb8bcc2), &ball)) {
             return false;

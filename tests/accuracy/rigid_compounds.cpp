@@ -112,13 +112,15 @@ TEST_CASE("a dumbbell that falls across an L is within 1e-6 m after 0.4 s, with 
     }
 }
 
-// Both of its balls push the same body, and what is carried on of that is one push.
+// Both of its balls push the same body, and what is carried on of that is one push. It is let go low: what
+// strikes the board fast enough to carry it by its thickness is looked at in each substep (rigid/strikes.h),
+// by the twin once a tick.
 TEST_CASE("a heavy dumbbell that falls on a loose board is within 1.5e-6 m after 0.7 s") {
     for (const int substeps : {8, 20}) {
         RigidScene scene(with_substeps(substeps));
         scene.add_ground(0.5, 0.5, true);
         scene.add(box_shape(0.5, 0.03, 0.3), with_friction(fixed(0, 0.03, 0)));
-        lks_body_def def = with_friction(fixed(0.03, 0.41, 0.02));
+        lks_body_def def = with_friction(fixed(0.03, 0.23, 0.02));
         def.transform.rotation = about(0.1, 0.2, 1, 6);
         scene.add(dumbbell(5000), def);
         check("dumbbell on a board" + substeps_name(substeps) + ", 0.7 s", scene.run({42}).back(),

@@ -31,8 +31,9 @@ struct BodyDescription {
     std::uint32_t shape_count;
     BodyShape shapes[LKS_MAX_BODY_SHAPES]; // around the centre of mass
     MassProperties properties;
-    fixed::Vec3 centre;  // World: the centre of mass in the frame that the game gave
-    std::int64_t radius; // World: of a ball about the centre of mass with all shapes in it
+    fixed::Vec3 centre;     // World: the centre of mass in the frame that the game gave
+    std::int64_t radius;    // World: of a ball about the centre of mass with all shapes in it
+    std::int64_t thickness; // World: half of that of its thinnest shape
     Surface surface;
     lks_filter filter;
     std::int64_t gravity_factor;

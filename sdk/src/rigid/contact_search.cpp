@@ -5,6 +5,7 @@
 
 #include "collide/filter.h"
 #include "collide/saturation.h"
+#include "rigid/closing.h"
 #include "rigid/contact_memory.h"
 #include "rigid/contact_points.h"
 #include "rigid/near_pairs.h"
@@ -12,6 +13,7 @@
 #include "rigid/placed_pieces.h"
 #include "rigid/shape_touch.h"
 #include "rigid/sleep.h"
+#include "rigid/strikes.h"
 #include "rigid/ways.h"
 #include "threads/blocks.h"
 
@@ -58,11 +60,15 @@ class Search {
 public:
     Search(lks_world& world, Team* team) : world_(world), scene_(world.rigid), team_(team) {}
 
-    // False: somebody was woken, and it has to be done again.
-    bool run() {
+    // False: somebody was woken, or struck and finds others now, and it has to be done again.
+    bool run(int wave) {
+        // Each wakes those next to the ones that the wave before has woken.
+        constexpr int most_waves = 8;
+        constexpr int most_waves_among_sleepers = 16;
         find_near_pairs(world_);
         scene_.contacts.clear();
         scene_.contact_points.clear();
+        scene_.strike_pairs.clear();
         next_memory_ = 0;
         woken_ = false;
         if (team_ == nullptr || !find_by_team()) {
@@ -70,10 +76,16 @@ public:
                 for_each_found(pair, [this](const FoundContact& found) { add_contact(found); });
             }
         }
-        return !woken_;
+        const bool again = wave < (scene_.any_beside_sleeper ? most_waves_among_sleepers : most_waves);
+        const bool struck = again && spread_strikes(scene_, world_.rate);
+        return !woken_ && !struck;
     }
 
 private:
+    Strike strike_of(std::uint32_t other) const {
+        return other >= other_is_collider ? Strike{} : scene_.strikes[other];
+    }
+
     // Of b against a.
     Vec3 way_between(std::uint32_t a, std::uint32_t other) const {
         const Vec3 way = other >= other_is_collider ? way_in_tick(other_body(scene_, other), world_.rate)
@@ -125,9 +137,11 @@ private:
         // The motion of one against the other in this tick.
         const std::int64_t spins =
             scene_.travels[a] + (with_collider ? collider_turns(body_b, other) : scene_.travels[other]);
+        const StrikesOfPair strikes{strike_of(a), strike_of(other)};
         const Vec3 way = way_between(a, other);
         const std::int64_t travel = sum_of_magnitudes(way);
-        const std::int64_t room = near_distance + spins + (keeps_side(body_a, body_b) ? aside(travel) : 0);
+        const std::int64_t room = near_distance + spins + strikes.a.way + strikes.b.way +
+                                  (keeps_side(body_a, body_b) ? aside(travel) : 0);
         const Vec3 between = body_b.position - body_a.position;
         for (std::uint32_t i = 0; i < description_a.shape_count; ++i) {
             for (std::uint32_t j = 0; j < shapes_b; ++j) {
@@ -151,7 +165,7 @@ private:
                 }
                 FoundContact found;
                 found.key = {a, other, i * LKS_MAX_BODY_SHAPES + j};
-                if (touches({scene_.piece(a, i), piece_b}, {body_a, body_b}, way, spins, found)) {
+                if (touches({scene_.piece(a, i), piece_b}, {body_a, body_b}, way, spins, strikes, found)) {
                     use(found);
                 }
             }
@@ -189,6 +203,10 @@ private:
             ++next_memory_;
         }
         const bool known = next_memory_ < scene_.memories.size() && scene_.memories[next_memory_].key == key;
+        const Surface& own = scene_.descriptions[key.body_a].surface;
+        const Surface other = surface_of(key.other);
+        const std::int64_t restitution = std::max(own.restitution, other.restitution);
+        note_strike(found.manifold, key, restitution);
         if (disturb_sleep(found.manifold, key)) {
             return;
         }
@@ -205,11 +223,9 @@ private:
         contact.fast = found.fast;
         contact.radius_a = found.radius_a;
         contact.radius_b = found.radius_b;
-        const Surface& own = scene_.descriptions[key.body_a].surface;
-        const Surface other = surface_of(key.other);
         contact.static_friction = combined_friction(own.static_friction, other.static_friction);
         contact.dynamic_friction = combined_friction(own.dynamic_friction, other.dynamic_friction);
-        contact.restitution = std::max(own.restitution, other.restitution);
+        contact.restitution = restitution;
         contact.gravity_speed = std::max(gravity_speed(body_a, key.body_a), gravity_speed(body_b, key.other));
         OldContact old{{}, no_side};
         ContactMemory beside; // as of a wall
@@ -247,10 +263,10 @@ private:
         // What has just been woken is about to be pushed: its neighbours are not to stand like walls.
         const bool carried = !a.is_dynamic() || !b.is_dynamic() || a.has_woken() || b.has_woken();
         const bool comes = a.is_awake() || b.is_awake();
-        const Vec3 more = saturating_subtract(more_way(b, key.other), more_way(a, key.body_a));
-        const std::int64_t further = -fixed::dot(manifold.normal, more);
+        const PairClosing pair(world_, key, manifold);
+        const std::int64_t struck = struck_closing(manifold, key);
         for (std::uint32_t i = 0; (comes || carried) && i < manifold.count; ++i) {
-            const std::int64_t closing = closing_at(manifold, manifold.points[i], a, b) + further;
+            const std::int64_t closing = pair.at(manifold.points[i]) + struck;
             // What comes may speed up on its way.
             const std::int64_t way = std::max<std::int64_t>(closing + closing / 4, 0);
             if ((carried || closing > per_tick(gentle_speed, world_.rate)) &&
@@ -263,23 +279,32 @@ private:
         return !comes;
     }
 
-    // What a body's speed does not say of its way in this tick: beyond the limit of speeds where it is
-    // kinematic, and what it falls in a long tick.
-    Vec3 more_way(const Body& body, std::uint32_t index) const {
-        if (!body.is_dynamic()) {
-            return saturating_subtract(way_in_tick(body, world_.rate),
-                                       way_in(body.velocity, world_.rate.ticks_per_second));
+    // Who may carry the other off its way, or both, and by what. What hardly strikes may hand a strike on:
+    // for that the motion of the middles is enough. What stands sends a body back along its way, which is
+    // looked at as it is.
+    void note_strike(const Manifold& manifold, const ContactKey& key, std::int64_t restitution) {
+        const bool with_body = key.other < other_is_collider;
+        if (!may_be_carried(scene_, key.body_a, key.other)) {
+            return;
         }
-        const Vec3 fall = body.is_awake() ? fall_in_tick(scene_.ticks[index], world_.rate) : Vec3{0, 0, 0};
-        return sum_of_magnitudes(fall) > near_distance ? fall : Vec3{0, 0, 0};
+        const std::int64_t travels = scene_.travels[key.body_a] + (with_body ? scene_.travels[key.other] : 0);
+        const std::int64_t speed = -fixed::dot(manifold.normal, way_between(key.body_a, key.other));
+        StrikePair pair{
+            key.body_a, key.other, manifold.normal, {speed - least_gap(manifold), speed}, restitution};
+        const bool strikes = may_strike(scene_, key.body_a, key.other, pair.closing.way + travels);
+        if (strikes && manifold.count != 0) {
+            pair.closing = PairClosing(world_, key, manifold).greatest();
+        }
+        if (strikes || with_body) {
+            note_strike_pair(scene_, pair);
+        }
     }
 
-    // How far two bodies come closer there in a tick: what topples comes by its spin.
-    std::int64_t closing_at(const Manifold& manifold, const ManifoldPoint& point, const Body& a,
-                            const Body& b) const {
-        const Vec3 between = saturating_subtract(b.position, a.position);
-        const Levers levers{point.core_a, saturating_subtract(point.core_b, between)};
-        return per_tick(closing_speed(manifold.normal, levers, {a.speeds(), b.speeds()}), world_.rate);
+    // What they may close in a tick by having been struck, at the beginning of a substep already.
+    std::int64_t struck_closing(const Manifold& manifold, const ContactKey& key) const {
+        const StrikesOfPair strikes{strike_of(key.body_a), strike_of(key.other)};
+        const Closing struck = lks::struck_closing(strikes, manifold.normal);
+        return struck.way + struck.speed / world_.rate.substeps;
     }
 
     lks_world& world_;
@@ -329,7 +354,8 @@ void place_collider_bodies(lks_world& world) {
 }
 
 void find_contacts(lks_world& world, Team* team) {
-    while (!Search(world, team).run()) {
+    begin_strikes(world.rigid);
+    for (int wave = 1; !Search(world, team).run(wave); ++wave) {
         wake_islands(world);
     }
 }

@@ -126,6 +126,7 @@ BodyDescription describe_body(const BodyDefinition& definition) {
         shape.position = shape.position - out.centre;
         const auto distance = static_cast<std::int64_t>(fixed::length(shape.position));
         out.radius = std::max(out.radius, distance + bounding_radius(shape));
+        out.thickness = i == 0 ? thickness(shape) : std::min(out.thickness, thickness(shape));
     }
     take_settings(out, settings);
     return out;

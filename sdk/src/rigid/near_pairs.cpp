@@ -75,7 +75,8 @@ private:
     Box box_of_body(std::uint32_t index) const {
         const Body& body = scene_.bodies[index];
         const Vec3& way = scene_.ways[index];
-        const std::int64_t room = near_distance / 2 + scene_.travels[index] + aside(sum_of_magnitudes(way));
+        const std::int64_t room = near_distance / 2 + scene_.travels[index] + scene_.strikes[index].way +
+                                  aside(sum_of_magnitudes(way));
         Box box{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
         for (std::uint32_t i = 0; i < scene_.descriptions[index].shape_count; ++i) {
             const Vec3 reach = scene_.piece_extent(index, i) + Vec3{room, room, room};
@@ -126,7 +127,7 @@ private:
         const ColliderState& collider = world_.colliders[collider_index].collider;
         const Body& body = scene_.bodies[index];
         const std::int64_t room = scene_.descriptions[index].radius + near_distance + scene_.travels[index] +
-                                  sum_of_magnitudes(scene_.ways[index]);
+                                  scene_.strikes[index].way + sum_of_magnitudes(scene_.ways[index]);
         const auto below = [&](const fixed::Rotation& rotation, const Vec3& position) {
             const fixed::Int128 height = height_above_plane(plane_normal(fixed::to_matrix(rotation)),
                                                             position, body.position, Vec3{0, 0, 0});
@@ -152,7 +153,7 @@ private:
         scene_.pairs.push_reserved(std::uint64_t{a} << 32 | b);
     }
 
-    bool may_collide(std::uint32_t a, std::uint32_t b) const {
+    bool may_collide(std::uint32_t a, std::uint32_t b) {
         const Body& body = scene_.bodies[a];
         if (b >= other_is_collider) {
             return body.is_dynamic() && (body.is_active() || collider_of(world_, b).moves()) &&
@@ -162,10 +163,15 @@ private:
         if ((!body.is_dynamic() && !other.is_dynamic()) || (!body.is_active() && !other.is_active())) {
             return false;
         }
-        if (scene_.are_jointed(a, b)) {
+        if (scene_.are_jointed(a, b) ||
+            !filters_meet(scene_.descriptions[a].filter, scene_.descriptions[b].filter)) {
             return false;
         }
-        return filters_meet(scene_.descriptions[a].filter, scene_.descriptions[b].filter);
+        if (body.asleep != 0 || other.asleep != 0) {
+            scene_.strikes[body.asleep != 0 ? b : a].beside_sleeper = true;
+            scene_.any_beside_sleeper = true;
+        }
+        return true;
     }
 
     lks_world& world_;

@@ -21,20 +21,20 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       joints(allocator), memories(allocator), attachment_slots(allocator), attachments(allocator),
       descriptions(allocator), jointed(allocator), jointed_starts(allocator), ticks(allocator),
       collider_bodies(allocator), pieces(allocator), piece_extents(allocator), piece_starts(allocator),
-      ways(allocator), travels(allocator), overlaps(allocator), boxed(allocator), pairs(allocator),
-      sorting(allocator), found(allocator), found_order(allocator), contacts(allocator),
-      contact_points(allocator), contact_marks(allocator), contacts_act(allocator), contact_moves(allocator),
-      next_memories(allocator), islands(allocator), tree_roots(allocator), tree_links(allocator),
-      tree_bodies(allocator), tree_joints(allocator), articulated(allocator), trees(allocator),
-      held_joints(allocator), uneven_joints(allocator), figures(allocator), figure_parts(allocator),
-      figure_ranges(allocator), figure_bundles(allocator), wide_bodies(allocator), wide_joints(allocator),
-      shared_contacts(allocator), figure_shares(allocator), substep_motions(allocator),
-      predicted_speeds(allocator), figure_masses(allocator), figures_changed(allocator),
-      strained_figures(allocator), figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator),
-      is_coupled(allocator), coupled(allocator), object_pairs(allocator), object_pushes(allocator),
-      object_touches(allocator), held(allocator), rope_loads(allocator), particle_loads(allocator),
-      loaded_bodies(allocator), loaded_joints(allocator), loaded_attachments(allocator),
-      tree_kernels_(tree_kernels) {}
+      ways(allocator), travels(allocator), strikes(allocator), spread_strikes(allocator),
+      strike_pairs(allocator), overlaps(allocator), boxed(allocator), pairs(allocator), sorting(allocator),
+      found(allocator), found_order(allocator), contacts(allocator), contact_points(allocator),
+      contact_marks(allocator), contacts_act(allocator), contact_moves(allocator), next_memories(allocator),
+      islands(allocator), tree_roots(allocator), tree_links(allocator), tree_bodies(allocator),
+      tree_joints(allocator), articulated(allocator), trees(allocator), held_joints(allocator),
+      uneven_joints(allocator), figures(allocator), figure_parts(allocator), figure_ranges(allocator),
+      figure_bundles(allocator), wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator),
+      figure_shares(allocator), substep_motions(allocator), predicted_speeds(allocator),
+      figure_masses(allocator), figures_changed(allocator), strained_figures(allocator),
+      figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator), is_coupled(allocator),
+      coupled(allocator), object_pairs(allocator), object_pushes(allocator), object_touches(allocator),
+      held(allocator), rope_loads(allocator), particle_loads(allocator), loaded_bodies(allocator),
+      loaded_joints(allocator), loaded_attachments(allocator), tree_kernels_(tree_kernels) {}
 
 // A bundle takes the same for any number of trees.
 std::size_t RigidScene::wide_room(std::size_t count) const {
@@ -52,9 +52,11 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         descriptions.reserve(body_count) && ticks.reserve(body_count) &&
         collider_bodies.reserve(collider_count) && pieces.reserve(body_count * LKS_MAX_BODY_SHAPES) &&
         piece_extents.reserve(body_count * LKS_MAX_BODY_SHAPES) && piece_starts.reserve(body_count) &&
-        ways.reserve(body_count) && travels.reserve(body_count) && jointed_starts.reserve(body_count + 1) &&
-        overlaps.reserve(static_cast<std::uint32_t>(boxes)) && boxed.reserve(boxes) &&
-        pairs.reserve(pair_capacity(body_count)) && contacts.reserve(contact_capacity(body_count)) &&
+        ways.reserve(body_count) && travels.reserve(body_count) && strikes.reserve(body_count) &&
+        spread_strikes.reserve(body_count) && strike_pairs.reserve(contact_capacity(body_count)) &&
+        jointed_starts.reserve(body_count + 1) && overlaps.reserve(static_cast<std::uint32_t>(boxes)) &&
+        boxed.reserve(boxes) && pairs.reserve(pair_capacity(body_count)) &&
+        contacts.reserve(contact_capacity(body_count)) &&
         contact_points.reserve(greatest_point_count * contact_capacity(body_count)) &&
         contact_marks.reserve(contact_capacity(body_count)) &&
         contacts_act.reserve(contact_capacity(body_count)) && contact_moves.reserve(body_count + 1) &&

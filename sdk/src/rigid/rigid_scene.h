@@ -18,6 +18,7 @@
 #include "rigid/overlaps.h"
 #include "rigid/particle_pushes.h"
 #include "rigid/rope_load.h"
+#include "rigid/strikes.h"
 #include "rigid/substep_motion.h"
 #include "rigid/uneven_tree_parts.h"
 #include "solver/slot.h"
@@ -91,6 +92,11 @@ struct RigidScene {
     Array<std::uint32_t> piece_starts; // by body, into pieces
     Array<fixed::Vec3> ways;           // by body: where its velocity takes it in a tick
     Array<std::int64_t> travels;       // by body: how far any point of it goes beside that at most
+    Array<Strike> strikes;             // by body (rigid/strikes.h)
+    Array<Strike> spread_strikes;      // beside them, while they are made
+    Array<StrikePair> strike_pairs;
+    bool any_beside_sleeper = false;
+    std::int64_t thinnest = 0; // of all bodies
     Overlaps overlaps;
     Array<std::uint32_t> boxed;   // by box: body, or collider | other_is_collider
     Array<std::uint64_t> pairs;   // body a << 32 | other, ascending

@@ -35,24 +35,25 @@ bool is_round(const Piece& piece) {
 // Whether the way that they push each other turns in this tick: of round surfaces by more than a 64th.
 // Balls that pass each other off centre would part as if they had met where the tick began: 5° astray at
 // 5 m/s. Of what is about to meet a box by more than a 16th: its edge would be a wall that goes on.
-bool normal_turns(const PiecePair& pieces, const BodyPair& bodies, const Manifold& manifold,
-                  const Vec3& way) {
+bool normal_turns(const PiecePair& pieces, const BodyPair& bodies, const Manifold& manifold, const Vec3& way,
+                  std::int64_t strikes) {
     const Piece& a = pieces.a;
     const Piece& b = pieces.b;
     if (b.kind == LKS_SHAPE_PLANE) {
         return false;
     }
     const Vec3 across = way - fixed::scale(manifold.normal, fixed::dot(manifold.normal, way));
-    if (is_round(a) && is_round(b)) {
-        return !bodies.a.jointed && !bodies.b.jointed &&
-               sum_of_magnitudes(across) > (a.radius + b.radius) / 64;
-    }
     std::int64_t gap = INT64_MAX;
     for (std::uint32_t i = 0; i < manifold.count; ++i) {
         gap = std::min(gap, manifold.points[i].separation);
     }
+    // Who is struck where he lies meets nobody on his way whom he does not push already.
+    const std::int64_t turning = sum_of_magnitudes(across) + (gap > touching_distance ? strikes : 0);
+    if (is_round(a) && is_round(b)) {
+        return !bodies.a.jointed && !bodies.b.jointed && turning > (a.radius + b.radius) / 64;
+    }
     return keeps_side(bodies.a, bodies.b) && manifold.count != 0 && gap > touching_distance &&
-           sum_of_magnitudes(across) > (a.radius + b.radius + gap) / 16;
+           turning > (a.radius + b.radius + gap) / 16;
 }
 
 // Of the motion that the search allowed for, only what closes the gap counts.
@@ -80,10 +81,11 @@ std::int64_t fall_in_substep(const lks_world& world, std::uint32_t body) {
 } // namespace
 
 bool touches(const PiecePair& pieces, const BodyPair& bodies, const Vec3& way, std::int64_t spins,
-             FoundContact& found) {
+             const StrikesOfPair& strikes, FoundContact& found) {
     const Piece& a = pieces.a;
     const Piece& b = pieces.b;
-    const std::int64_t motion = sum_of_magnitudes(way) + spins;
+    const std::int64_t struck = strikes.a.way + strikes.b.way;
+    const std::int64_t motion = sum_of_magnitudes(way) + spins + struck;
     // One look a tick is enough where neither passes the other's middle in it, and where what is inside
     // the other does not turn out of it.
     const bool fast = motion > fixed::saturating_add(thickness(a), thickness(b));
@@ -95,9 +97,10 @@ bool touches(const PiecePair& pieces, const BodyPair& bodies, const Vec3& way, s
                    no_side, found.manifold);
     // Boxes beside each other show no points, and may yet meet at their edges.
     const bool unclear = fast && found.manifold.count == 0;
-    drop_what_stays_apart(found.manifold, way, spins);
+    drop_what_stays_apart(found.manifold, way, spins + struck_closing(strikes, found.manifold.normal).way);
     found.fast = fast;
-    found.every_substep = fast || sticks(found.manifold) || normal_turns(pieces, bodies, found.manifold, way);
+    found.every_substep =
+        fast || sticks(found.manifold) || normal_turns(pieces, bodies, found.manifold, way, struck);
     return found.manifold.count != 0 || unclear;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rigid/contact.h"
+#include "rigid/strikes.h"
 #include "solver/world.h"
 
 namespace lks {
@@ -17,9 +18,9 @@ struct BodyPair {
 };
 
 // Fills `found` but for its key. `way`: of b against a in this tick, `spins`: how far they turn each other's
-// points at most. False: they do not touch.
+// points at most, beside what may carry them off their ways, `strikes`. False: they do not touch.
 bool touches(const PiecePair& pieces, const BodyPair& bodies, const fixed::Vec3& way, std::int64_t spins,
-             FoundContact& found);
+             const StrikesOfPair& strikes, FoundContact& found);
 // Fills the contact's points from where its bodies are, with what it pushed before: on the side of its bodies
 // that `side` says, a normal that it had.
 void find_points(const lks_world& world, Contact& contact, const fixed::Direction& side);
