@@ -72,8 +72,9 @@ for measured in "soft / stiff", "damped / stiff", "damped / soft", "256² / 64²
     found = result(ratios, measured, "scalar")
     if not 0 < found["low"] == found["value"] == found["high"]:
         sys.exit(f"Of one round the quartiles are not the median: {found}")
+snapshots = measure("snapshots")
 for measured in "save", "load", "hash", "memcpy":
-    value(measure("snapshots"), measured, "scalar")
+    value(snapshots, measured, "scalar")
 cloth = measure("cloth_50")
 for measured in "projection", "tick":
     for variant in "scalar", "float32 runs, scalar", "float32 plain, by index":
