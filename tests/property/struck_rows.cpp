@@ -188,3 +188,31 @@ TEST_CASE("a ball that falls behind another is struck by it in the tick in which
         }
     }
 }
+
+// Each is lighter than the one before and would be faster, without end: no body is faster than the limit, nor
+// carried further.
+TEST_CASE("a row from a thousand tonnes to a milligram hands on no more than the greatest speed") {
+    const int count = 24;
+    for (const bool asleep : {false, true}) {
+        for (const std::uint32_t substeps : {1u, 8u, 100u}) {
+            INFO(substeps << " substeps, asleep: " << asleep);
+            World world(weightless(substeps));
+            lks_body_def def = frictionless(1);
+            def.never_sleeps = asleep ? 0 : 1;
+            std::vector<lks_body_id> balls;
+            for (int i = 0; i < count; ++i) {
+                def.mass =
+                    std::max(fixed(std::pow(10, 6 - 12. * i / (count - 1))), LKS_FIXED_RATIO(1, 1000000));
+                balls.push_back(add_body(world, ball_shape(0.05), fixed(0.12 * i, 0, 0), def));
+            }
+            for (int tick = 0; asleep && tick < 600 && lks_world_awake_body_count(world) != 0; ++tick) {
+                world.step();
+            }
+            const double limit = std::min(1000., 16. * 60 * substeps);
+            REQUIRE(lks_body_set_velocity(world, balls[0], fixed(0.9 * limit, 0, 0), {}) == LKS_OK);
+            world.step(20);
+            CHECK(state_of(world, balls[0]).velocity.x > 0);
+            CHECK(std::abs(state_of(world, balls.back()).velocity.x / limit - 1) < 1e-6);
+        }
+    }
+}

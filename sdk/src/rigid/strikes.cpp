@@ -4,6 +4,7 @@
 
 #include "rigid/contact_search.h"
 #include "rigid/rigid_scene.h"
+#include "rigid/ways.h"
 
 namespace lks {
 namespace {
@@ -50,7 +51,8 @@ bool is_further(std::int64_t way, std::int64_t before) {
 
 class Spread {
 public:
-    Spread(RigidScene& scene, const StepRate& rate) : scene_(scene), rate_(rate) {}
+    Spread(RigidScene& scene, const StepRate& rate)
+        : scene_(scene), rate_(rate), greatest_(2 * per_tick(body_speed_limit(rate), rate)) {}
 
     bool run() {
         if (!anybody_strikes()) {
@@ -134,13 +136,15 @@ private:
         // What meets within a substep is struck where that begins.
         const std::int64_t way = std::min(closing.way + closing.speed / rate_.substeps, closing.speed);
         Strike& now = spread(index);
-        const std::int64_t part = fixed::multiply_shift(way, share, 30);
+        const auto shared = [&](std::int64_t closes) {
+            return std::min(fixed::multiply_shift(closes, share, 30), greatest_);
+        };
+        const std::int64_t part = shared(way);
         if (part < least_beside_sleepers || !is_further(part, now.way)) {
             return false;
         }
         const bool aside = is_aside(now, along) || is_aside(striker, along);
-        now = {part, std::max(now.speed, fixed::multiply_shift(closing.speed, share, 30)), along, aside,
-               now.beside_sleeper};
+        now = {part, std::max(now.speed, shared(closing.speed)), along, aside, now.beside_sleeper};
         return true;
     }
 
@@ -164,6 +168,7 @@ private:
 
     RigidScene& scene_;
     const StepRate& rate_;
+    std::int64_t greatest_; // whatever strikes it: along each axis no body is faster than the limit
 };
 
 } // namespace
