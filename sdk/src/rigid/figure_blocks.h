@@ -66,10 +66,13 @@ public:
     // use(joint, body a, body b)
     template <typename Use>
     void for_each_joint(const FigureRange& figure, const Use& use) const {
-        for_each_part(scene_, figure, Part::joint, [&](std::uint32_t i) {
-            Joint& joint = scene_.joints[i];
-            use(joint, scene_.bodies[joint.description.body_a], scene_.bodies[joint.description.body_b]);
-        });
+        for_each_part(scene_, figure, Part::joint, [&](std::uint32_t i) { use_joint(i, use); });
+    }
+
+    // The same from the last one to the first.
+    template <typename Use>
+    void for_each_joint_back(const FigureRange& figure, const Use& use) const {
+        for_each_part_back(scene_, figure, Part::joint, [&](std::uint32_t i) { use_joint(i, use); });
     }
 
     // A bundle's trees side by side, or those of its one figure one by one.
@@ -88,6 +91,12 @@ private:
     static constexpr std::uint32_t bodies_a_block = 64;
     static constexpr std::uint32_t contacts_a_block = 64;
     static constexpr std::uint32_t parts_a_block = 128;
+
+    template <typename Use>
+    void use_joint(std::uint32_t index, const Use& use) const {
+        Joint& joint = scene_.joints[index];
+        use(joint, scene_.bodies[joint.description.body_a], scene_.bodies[joint.description.body_b]);
+    }
 
     RigidScene& scene_;
     Team* team_;

@@ -10,8 +10,6 @@ public:
     // Once the contacts of the tick are known.
     Impacts(lks_world& world, const FigureContacts& contacts);
 
-    // Nothing bounces in this tick: the others do nothing.
-    bool any() const { return any_; }
     void strike_all() const;
     // Before the end of a substep changes them.
     void keep_predicted_speeds() const;
@@ -24,7 +22,7 @@ private:
     RigidScene& scene_;
     const FigureContacts& contacts_;
     MotionRate rate_;
-    bool any_ = false;
+    bool any_ = false; // else nothing bounces in this tick, and nothing is to be done
 };
 
 } // namespace lks

@@ -145,6 +145,9 @@ private:
         if (a >= other_is_collider || !may_collide(a, b)) {
             return;
         }
+        if (b < other_is_collider) {
+            mark_beside_sleeper(a, b);
+        }
         // By the state alone, not by how much memory happens to be there.
         if (scene_.pairs.size() >= pair_capacity(scene_.bodies.size())) {
             ++world_.counters.lost_contacts;
@@ -153,7 +156,16 @@ private:
         scene_.pairs.push_reserved(std::uint64_t{a} << 32 | b);
     }
 
-    bool may_collide(std::uint32_t a, std::uint32_t b) {
+    // At most one of them sleeps.
+    void mark_beside_sleeper(std::uint32_t a, std::uint32_t b) {
+        const bool a_sleeps = scene_.bodies[a].asleep != 0;
+        if (a_sleeps || scene_.bodies[b].asleep != 0) {
+            scene_.strikes[a_sleeps ? b : a].beside_sleeper = true;
+            scene_.any_beside_sleeper = true;
+        }
+    }
+
+    bool may_collide(std::uint32_t a, std::uint32_t b) const {
         const Body& body = scene_.bodies[a];
         if (b >= other_is_collider) {
             return body.is_dynamic() && (body.is_active() || collider_of(world_, b).moves()) &&
@@ -163,15 +175,10 @@ private:
         if ((!body.is_dynamic() && !other.is_dynamic()) || (!body.is_active() && !other.is_active())) {
             return false;
         }
-        if (scene_.are_jointed(a, b) ||
-            !filters_meet(scene_.descriptions[a].filter, scene_.descriptions[b].filter)) {
+        if (scene_.are_jointed(a, b)) {
             return false;
         }
-        if (body.asleep != 0 || other.asleep != 0) {
-            scene_.strikes[body.asleep != 0 ? b : a].beside_sleeper = true;
-            scene_.any_beside_sleeper = true;
-        }
-        return true;
+        return filters_meet(scene_.descriptions[a].filter, scene_.descriptions[b].filter);
     }
 
     lks_world& world_;

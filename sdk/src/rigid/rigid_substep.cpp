@@ -144,10 +144,7 @@ void RigidSubstep::project_joints(const FigureRange& figure) {
 
 void RigidSubstep::project_back(const FigureRange& figure) {
     contacts_.project_back(figure);
-    for_each_part_back(scene_, figure, Part::joint, [this](std::uint32_t i) {
-        Joint& joint = scene_.joints[i];
-        project(joint, scene_.bodies[joint.description.body_a], scene_.bodies[joint.description.body_b]);
-    });
+    blocks_.for_each_joint_back(figure, [](Joint& joint, Body& a, Body& b) { project(joint, a, b); });
 }
 
 void RigidSubstep::iterate(std::uint32_t substep) {

@@ -8,6 +8,16 @@
 #include "rigid/wide_trees.h"
 
 namespace lks {
+namespace {
+
+// By its row, where it is not solved with its tree.
+void project_swept(Joint& joint, Body& a, Body& b) {
+    if (!joint.in_held_tree) {
+        project(joint, a, b);
+    }
+}
+
+} // namespace
 
 // use(figure, bundle, number in it).
 template <typename Use>
@@ -24,11 +34,7 @@ void StrainedFigures::in_strained(const Use& use) const {
 
 // Held trees with what they hold, and the others' joints by rows.
 void StrainedFigures::solve(const FigureRange& figure) const {
-    blocks_.for_each_joint(figure, [](Joint& joint, Body& a, Body& b) {
-        if (!joint.in_held_tree) {
-            lks::project(joint, a, b);
-        }
-    });
+    blocks_.for_each_joint(figure, project_swept);
     solve_trees(figure);
 }
 
@@ -108,12 +114,7 @@ bool StrainedFigures::are_strained(const Contact& shared) const {
 
 void StrainedFigures::project_back(const FigureRange& figure) const {
     contacts_.project_back(figure);
-    for_each_part_back(scene_, figure, Part::joint, [this](std::uint32_t i) {
-        Joint& joint = scene_.joints[i];
-        if (!joint.in_held_tree) { // those are solved with their tree
-            project(joint, scene_.bodies[joint.description.body_a], scene_.bodies[joint.description.body_b]);
-        }
-    });
+    blocks_.for_each_joint_back(figure, project_swept);
 }
 
 bool StrainedFigures::relieve() const {
