@@ -35,7 +35,8 @@ PairClosing::PairClosing(const lks_world& world, const ContactKey& key, const Ma
 std::int64_t PairClosing::at(const ManifoldPoint& point) const {
     const Vec3 between = saturating_subtract(b_.position, a_.position);
     const Levers levers{point.core_a, saturating_subtract(point.core_b, between)};
-    return per_tick(closing_speed(manifold_.normal, levers, {a_.speeds(), b_.speeds()}), rate_) + more_;
+    return fixed::saturating_add(
+        per_tick(closing_speed(manifold_.normal, levers, {a_.speeds(), b_.speeds()}), rate_), more_);
 }
 
 Closing PairClosing::greatest() const {
@@ -43,7 +44,8 @@ Closing PairClosing::greatest() const {
     for (std::uint32_t i = 0; i < manifold_.count; ++i) {
         const ManifoldPoint& point = manifold_.points[i];
         const std::int64_t speed = at(point);
-        const std::int64_t way = speed - std::max<std::int64_t>(point.separation, 0);
+        const std::int64_t way =
+            fixed::saturating_subtract(speed, std::max<std::int64_t>(point.separation, 0));
         greatest = way > greatest.way ? Closing{way, speed} : greatest;
     }
     return greatest;

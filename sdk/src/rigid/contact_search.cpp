@@ -14,6 +14,7 @@
 #include "rigid/shape_touch.h"
 #include "rigid/sleep.h"
 #include "rigid/strikes.h"
+#include "rigid/struck_bones.h"
 #include "rigid/ways.h"
 #include "threads/blocks.h"
 
@@ -66,6 +67,9 @@ public:
         constexpr int most_waves = 8;
         constexpr int most_waves_among_sleepers = 16;
         find_near_pairs(world_);
+        if (wave == 1) {
+            find_thinnest_wall(world_);
+        }
         scene_.contacts.clear();
         scene_.contact_points.clear();
         scene_.strike_pairs.clear();
@@ -77,13 +81,14 @@ public:
             }
         }
         const bool again = wave < (scene_.any_beside_sleeper ? most_waves_among_sleepers : most_waves);
-        const bool struck = again && spread_strikes(scene_, world_.rate);
+        const bool struck = again && spread_strikes(world_);
         return !woken_ && !struck;
     }
 
 private:
-    Strike strike_of(std::uint32_t other) const {
-        return other >= other_is_collider ? Strike{} : scene_.strikes[other];
+    const Strike& strike_of(std::uint32_t other) const {
+        static constexpr Strike none{};
+        return other >= other_is_collider ? none : scene_.strikes[other];
     }
 
     // Of b against a.
@@ -140,23 +145,28 @@ private:
         const StrikesOfPair strikes{strike_of(a), strike_of(other)};
         const Vec3 way = way_between(a, other);
         const std::int64_t travel = sum_of_magnitudes(way);
-        const std::int64_t room = near_distance + spins + strikes.a.way + strikes.b.way +
-                                  (keeps_side(body_a, body_b) ? aside(travel) : 0);
+        const WaysBetween ways = ways_between(way, strikes);
+        const std::int64_t room =
+            near_distance + spins + ways.room + (keeps_side(body_a, body_b) ? aside(travel) : 0);
         const Vec3 between = body_b.position - body_a.position;
+        const auto pass_by = [&](const Vec3& centre_a, const Vec3& centre_b, const Vec3& around) {
+            return passes_by(saturating_add(saturating_subtract(centre_b, centre_a), ways.begin), ways.way,
+                             around);
+        };
         for (std::uint32_t i = 0; i < description_a.shape_count; ++i) {
             for (std::uint32_t j = 0; j < shapes_b; ++j) {
                 Piece piece_b;
                 if (with_collider) {
                     piece_b = piece_of_collider(body_b, collider_of(world_, other), body_a.position);
                     if (piece_b.kind != LKS_SHAPE_PLANE &&
-                        passes_by(saturating_subtract(piece_b.centre, scene_.piece(a, i).centre), way,
-                                  room_around(scene_.piece_extent(a, i), extent(piece_b), room))) {
+                        pass_by(scene_.piece(a, i).centre, piece_b.centre,
+                                room_around(scene_.piece_extent(a, i), extent(piece_b), room))) {
                         continue;
                     }
                 } else {
                     const Vec3 centre = scene_.piece(other, j).centre + between;
-                    if (passes_by(
-                            saturating_subtract(centre, scene_.piece(a, i).centre), way,
+                    if (pass_by(
+                            scene_.piece(a, i).centre, centre,
                             room_around(scene_.piece_extent(a, i), scene_.piece_extent(other, j), room))) {
                         continue;
                     }
@@ -174,14 +184,9 @@ private:
 
     // How far the points of a collider that turns go at most.
     std::int64_t collider_turns(const Body& body, std::uint32_t other) const {
-        if (body.angular_velocity == Vec3{0, 0, 0} && !collider_of(world_, other).rotates()) {
-            return 0;
-        }
-        const Shape& shape = collider_of(world_, other).shape;
-        const bool plane = shape.kind == LKS_SHAPE_PLANE;
-        const std::int64_t lever = plane ? LKS_FIXED(64) : world_from_coordinate(bounding_radius(shape, 0));
-        // A collider turns by a quarter at most in a tick.
-        return 2 * lever;
+        const ColliderState& collider = collider_of(world_, other);
+        const bool turns = !(body.angular_velocity == Vec3{0, 0, 0}) || collider.rotates();
+        return turns ? quarter_turn(collider) : 0;
     }
 
     Surface surface_of(std::uint32_t other) const {
@@ -288,10 +293,20 @@ private:
             return;
         }
         const std::int64_t travels = scene_.travels[key.body_a] + (with_body ? scene_.travels[key.other] : 0);
-        const std::int64_t speed = -fixed::dot(manifold.normal, way_between(key.body_a, key.other));
-        StrikePair pair{
-            key.body_a, key.other, manifold.normal, {speed - least_gap(manifold), speed}, restitution};
-        const bool strikes = may_strike(scene_, key.body_a, key.other, pair.closing.way + travels);
+        const Vec3 way = way_between(key.body_a, key.other);
+        const std::int64_t speed = -fixed::dot(manifold.normal, way);
+        StrikePair pair{key.body_a,
+                        key.other,
+                        manifold.normal,
+                        manifold.normal,
+                        {fixed::saturating_subtract(speed, least_gap(manifold)), speed},
+                        restitution};
+        const bool strikes =
+            may_strike(scene_, key.body_a, key.other, fixed::saturating_add(pair.closing.way, travels));
+        fixed::NormalisedVector closes{};
+        if (strikes && speed > 0 && fixed::normalise(saturating_subtract(Vec3{0, 0, 0}, way), closes)) {
+            pair.drive = closes.direction;
+        }
         if (strikes && manifold.count != 0) {
             pair.closing = PairClosing(world_, key, manifold).greatest();
         }
@@ -355,8 +370,10 @@ void place_collider_bodies(lks_world& world) {
 
 void find_contacts(lks_world& world, Team* team) {
     begin_strikes(world.rigid);
+    const std::uint64_t lost_before = world.counters.lost_contacts;
     for (int wave = 1; !Search(world, team).run(wave); ++wave) {
         wake_islands(world);
+        world.counters.lost_contacts = lost_before; // the last one counts
     }
 }
 

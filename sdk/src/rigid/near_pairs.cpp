@@ -75,14 +75,19 @@ private:
     Box box_of_body(std::uint32_t index) const {
         const Body& body = scene_.bodies[index];
         const Vec3& way = scene_.ways[index];
-        const std::int64_t room = near_distance / 2 + scene_.travels[index] + scene_.strikes[index].way +
-                                  aside(sum_of_magnitudes(way));
+        const StruckWay struck = struck_way(scene_.strikes[index]);
+        const std::int64_t room =
+            near_distance / 2 + scene_.travels[index] + struck.room + aside(sum_of_magnitudes(way));
         Box box{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
         for (std::uint32_t i = 0; i < scene_.descriptions[index].shape_count; ++i) {
             const Vec3 reach = scene_.piece_extent(index, i) + Vec3{room, room, room};
             const Vec3 centre = body.position + scene_.piece(index, i).centre;
             include(box, centre, reach);
             include(box, saturating_add(centre, way), reach);
+            if (!(struck.drive == Vec3{0, 0, 0})) {
+                include(box, saturating_add(centre, struck.drive), reach);
+                include(box, saturating_add(saturating_add(centre, way), struck.drive), reach);
+            }
             if (!body.is_dynamic()) {
                 // However it turns on its way.
                 const std::int64_t radius = scene_.descriptions[index].radius + near_distance / 2;

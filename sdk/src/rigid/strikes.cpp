@@ -2,14 +2,18 @@
 
 #include <algorithm>
 
+#include "collide/saturation.h"
 #include "rigid/contact_search.h"
 #include "rigid/rigid_scene.h"
+#include "rigid/struck_bones.h"
 #include "rigid/ways.h"
+#include "solver/world.h"
 
 namespace lks {
 namespace {
 
 using fixed::Direction;
+using fixed::Vec3;
 
 constexpr std::int64_t world_one = std::int64_t{1} << world_fraction_bits;
 // Of what is awake: below that the room that is always there is enough.
@@ -18,8 +22,9 @@ constexpr std::int64_t least_awake = near_distance / 2;
 constexpr std::int64_t least_beside_sleepers = world_one / 1000;
 // What is slower, in a tick, bounces off such a wall by so little that nobody sees it.
 constexpr std::int64_t least_speed_beside_sleepers = world_one / 200;
-// What strikes in one direction: within 14° of it.
+// What strikes in one direction: within 14° of it; bones, which are driven as a whole figure, within 45°.
 constexpr std::int32_t one_direction = (std::int32_t{1} << 30) - (std::int32_t{1} << 25);
+constexpr std::int32_t one_direction_of_bones = 759250125;
 
 bool is_body(std::uint32_t other) {
     return other < other_is_collider;
@@ -29,9 +34,14 @@ bool is_beside_sleeper(const RigidScene& scene, std::uint32_t index) {
     return scene.bodies[index].slept || scene.strikes[index].beside_sleeper;
 }
 
+// It has room where it may pass something only.
+bool is_held_by_joints(const RigidScene& scene, std::uint32_t index) {
+    return scene.bodies[index].jointed && !is_beside_sleeper(scene, index);
+}
+
 bool may_be_carried(const RigidScene& scene, std::uint32_t index) {
-    const Body& body = scene.bodies[index];
-    return body.is_dynamic() && (!body.jointed || is_beside_sleeper(scene, index));
+    return scene.bodies[index].is_dynamic() &&
+           (!is_held_by_joints(scene, index) || scene.thinnest_wall != INT64_MAX);
 }
 
 // From where on a strike counts. Where others are thinner than it, from where on it would go through those:
@@ -39,6 +49,9 @@ bool may_be_carried(const RigidScene& scene, std::uint32_t index) {
 std::int64_t least_strike(const RigidScene& scene, std::uint32_t index) {
     if (is_beside_sleeper(scene, index)) {
         return least_beside_sleepers;
+    }
+    if (scene.bodies[index].jointed) {
+        return least_way_through(scene, index);
     }
     const std::int64_t own = scene.descriptions[index].thickness;
     return std::max({least_awake, std::min(own, scene.thinnest), own / 4});
@@ -51,8 +64,9 @@ bool is_further(std::int64_t way, std::int64_t before) {
 
 class Spread {
 public:
-    Spread(RigidScene& scene, const StepRate& rate)
-        : scene_(scene), rate_(rate), greatest_(2 * per_tick(body_speed_limit(rate), rate)) {}
+    explicit Spread(lks_world& world)
+        : world_(world), scene_(world.rigid), rate_(world.rate),
+          greatest_(2 * per_tick(body_speed_limit(rate_), rate_)) {}
 
     bool run() {
         if (!anybody_strikes()) {
@@ -62,8 +76,17 @@ public:
         for (const Strike& strike : scene_.strikes) {
             scene_.spread_strikes.push_reserved(strike);
         }
+        const bool with_walls = scene_.thinnest_wall != INT64_MAX;
+        find_struck_figures(scene_);
         constexpr int most_passes = 16;
-        for (int pass = 0; pass < most_passes && sweep(); ++pass) {}
+        for (int pass = 0; pass < most_passes && sweep(); ++pass) {
+            if (with_walls) {
+                carry_figures(scene_);
+            }
+        }
+        if (with_walls) {
+            find_bones_near_walls(world_);
+        }
         return keep();
     }
 
@@ -92,64 +115,84 @@ private:
         }
         const Body& a = scene_.bodies[pair.body_a];
         const Body& b = other_body(scene_, pair.other);
-        // Of what changes of their speeds: against one that has a figure behind it all of that.
+        if (a.jointed && b.jointed && scene_.figures[pair.body_a] == scene_.figures[pair.other]) {
+            return false; // what it does by itself is in their own ways
+        }
         const PairShares shares = pair_shares(a.inverse_mass, b.inverse_mass);
-        const std::int64_t share_a = a.jointed && !b.jointed ? 0 : shares.a;
-        const std::int64_t share_b = b.jointed && !a.jointed ? 0 : shares.b;
-        if (share_a + share_b == 0) {
-            return false;
-        }
-        // Who does not bounce pushes on: in a row each gets more than its share of the one before.
-        const std::int64_t bounces =
-            share_a != 0 && share_b != 0 ? std::max(pair.restitution, world_one / 2) : pair.restitution;
-        const auto whole = [&](std::int64_t share) {
-            return fixed::multiply_shift((share << 30) / (share_a + share_b), world_one + bounces,
-                                         world_fraction_bits);
-        };
         bool any = false;
-        if (may_be_carried(scene_, pair.body_a)) {
-            any = strike(pair.body_a, pair.closing, strike_b, -pair.normal, whole(share_a));
+        if (shares.a != 0 && may_be_carried(scene_, pair.body_a) && !sends_back(pair.other, a)) {
+            any = strike(pair.body_a, pair.closing, strike_b, a.jointed ? -pair.drive : -pair.normal,
+                         share_of_change(shares.a, shares.b, !a.jointed && b.jointed, pair));
         }
-        if (is_body(pair.other) && may_be_carried(scene_, pair.other)) {
-            any = strike(pair.other, pair.closing, strike_a, pair.normal, whole(share_b)) || any;
+        if (shares.b != 0 && may_be_carried(scene_, pair.other) && !sends_back(pair.body_a, b)) {
+            any = strike(pair.other, pair.closing, strike_a, b.jointed ? pair.drive : pair.normal,
+                         share_of_change(shares.b, shares.a, !b.jointed && a.jointed, pair)) ||
+                  any;
         }
         return any;
+    }
+
+    // What stands sends a bone back to where it came from.
+    bool sends_back(std::uint32_t other, const Body& body) const {
+        return body.jointed &&
+               (is_body(other) ? !scene_.bodies[other].is_dynamic() && !scene_.bodies[other].is_moving()
+                               : !collider_of(world_, other).moves());
+    }
+
+    // What one gets of how two close, 30 fraction bits: `all` against one that has a figure behind it.
+    static std::int64_t share_of_change(std::int64_t own, std::int64_t other, bool all,
+                                        const StrikePair& pair) {
+        all = all || other == 0;
+        // Who does not bounce pushes on: in a row each gets more than its share of the one before.
+        const std::int64_t bounces = all ? pair.restitution : std::max(pair.restitution, world_one / 2);
+        const std::int64_t share = all ? std::int64_t{1} << 30 : (own << 30) / (own + other);
+        return fixed::multiply_shift(share, world_one + bounces, world_fraction_bits);
     }
 
     Strike& spread(std::uint32_t index) { return scene_.spread_strikes[index]; }
 
     // How far two close, the striker having been struck itself. Where it may go anywhere by that, the two do
     // not add up: each would carry the other further and further.
-    static Closing with_carried(const Closing& own, const Strike& striker, const Direction& along) {
-        const Closing carried = struck_closing(striker, along);
-        if (!striker.anywhere || own.speed <= 0) {
-            return {own.way + carried.way, own.speed + carried.speed};
+    static Closing with_carried(const Closing& own, const Closing& carried, bool adds_up) {
+        if (adds_up || own.speed <= 0) {
+            return {fixed::saturating_add(own.way, carried.way),
+                    fixed::saturating_add(own.speed, carried.speed)};
         }
-        const std::int64_t gap = own.speed - own.way;
-        return {std::max(own.way, carried.way - gap), std::max(own.speed, carried.speed)};
+        const std::int64_t gap = fixed::saturating_subtract(own.speed, own.way);
+        return {std::max(own.way, fixed::saturating_subtract(carried.way, gap)),
+                std::max(own.speed, carried.speed)};
     }
 
     // `share`: of how they close, 30 fraction bits.
     bool strike(std::uint32_t index, const Closing& own, const Strike& striker, const Direction& along,
                 std::int64_t share) {
-        const Closing closing = with_carried(own, striker, along);
-        // What meets within a substep is struck where that begins.
-        const std::int64_t way = std::min(closing.way + closing.speed / rate_.substeps, closing.speed);
-        Strike& now = spread(index);
+        const bool bone = scene_.bodies[index].jointed;
+        const Closing carried = struck_closing(striker, along);
+        const Closing closing = with_carried(own, carried, !striker.anywhere && !bone);
         const auto shared = [&](std::int64_t closes) {
-            return std::min(fixed::multiply_shift(closes, share, 30), greatest_);
+            return fixed::multiply_shift(std::min(closes, 2 * greatest_), share, 30);
         };
-        const std::int64_t part = shared(way);
+        // Nor is a bone driven faster than what strikes it: figures touch each other in many places.
+        const std::int64_t most =
+            bone ? std::min(std::max(shared(own.speed), carried.speed), greatest_) : greatest_;
+        // What meets within a substep is struck where that begins.
+        const std::int64_t way = std::min(
+            fixed::saturating_add(closing.way, closing.speed / static_cast<std::int64_t>(rate_.substeps)),
+            closing.speed);
+        Strike& now = spread(index);
+        const std::int64_t part = std::min(shared(way), most);
         if (part < least_beside_sleepers || !is_further(part, now.way)) {
             return false;
         }
-        const bool aside = is_aside(now, along) || is_aside(striker, along);
-        now = {part, std::max(now.speed, shared(closing.speed)), along, aside, now.beside_sleeper};
+        const bool handed_on = bone && carried.way > own.way;
+        const Direction driven = handed_on ? striker.along : along;
+        now.anywhere = goes_elsewhere(now, driven) ||
+                       (bone ? handed_on && striker.anywhere : goes_elsewhere(striker, along));
+        now.way = part;
+        now.speed = std::max(now.speed, std::min(shared(closing.speed), most));
+        now.along = driven;
+        now.of_bone = bone;
         return true;
-    }
-
-    static bool is_aside(const Strike& other, const Direction& along) {
-        return other.way != 0 && (other.anywhere || fixed::dot(other.along, along) < one_direction);
     }
 
     // Those that count.
@@ -158,7 +201,8 @@ private:
         for (std::uint32_t i = 0; i < scene_.strikes.size(); ++i) {
             const Strike& now = spread(i);
             if (is_further(now.way, scene_.strikes[i].way) && now.way >= least_strike(scene_, i) &&
-                now.speed >= least_speed_beside_sleepers) {
+                now.speed >= least_speed_beside_sleepers &&
+                (now.is_near_wall || !is_held_by_joints(scene_, i))) {
                 scene_.strikes[i] = now;
                 any = true;
             }
@@ -166,6 +210,7 @@ private:
         return any;
     }
 
+    lks_world& world_;
     RigidScene& scene_;
     const StepRate& rate_;
     std::int64_t greatest_; // whatever strikes it: along each axis no body is faster than the limit
@@ -185,12 +230,42 @@ void begin_strikes(RigidScene& scene) {
     }
 }
 
+bool goes_elsewhere(const Strike& strike, const Direction& along) {
+    const std::int32_t least = strike.of_bone ? one_direction_of_bones : one_direction;
+    return strike.way != 0 && (strike.anywhere || fixed::dot(strike.along, along) < least);
+}
+
+StruckWay struck_way(const Strike& strike) {
+    if (strike.of_bone && !strike.anywhere) {
+        return {fixed::scale(strike.along, strike.way), strike.way / 2};
+    }
+    return {{0, 0, 0}, strike.way};
+}
+
+WaysBetween ways_between(const Vec3& way, const StrikesOfPair& strikes) {
+    if (strikes.a.way == 0 && strikes.b.way == 0) {
+        return {{0, 0, 0}, way, 0};
+    }
+    const StruckWay a = struck_way(strikes.a);
+    const StruckWay b = struck_way(strikes.b);
+    Vec3 low{0, 0, 0};
+    Vec3 high{0, 0, 0};
+    for (const Vec3& part : {way, b.drive, -a.drive}) {
+        low = saturating_add(low, {std::min<std::int64_t>(part.x, 0), std::min<std::int64_t>(part.y, 0),
+                                   std::min<std::int64_t>(part.z, 0)});
+        high = saturating_add(high, {std::max<std::int64_t>(part.x, 0), std::max<std::int64_t>(part.y, 0),
+                                     std::max<std::int64_t>(part.z, 0)});
+    }
+    return {low, saturating_subtract(high, low), a.room + b.room};
+}
+
 Closing struck_closing(const Strike& strike, const Direction& direction) {
     if (strike.anywhere || strike.way == 0) {
         return {strike.way, strike.speed};
     }
     // Who meets others on that way is turned aside.
-    const std::int64_t part = std::int64_t{fixed::dot(strike.along, direction)} + (std::int64_t{1} << 28);
+    const std::int64_t turned = std::int64_t{1} << (strike.of_bone ? 29 : 28);
+    const std::int64_t part = std::int64_t{fixed::dot(strike.along, direction)} + turned;
     constexpr std::int64_t whole = std::int64_t{1} << 30;
     if (part <= whole / 4) {
         return {0, 0};
@@ -216,7 +291,8 @@ bool may_strike(const RigidScene& scene, std::uint32_t body_a, std::uint32_t oth
     // may be handed on to him.
     const auto may_carry = [&](std::uint32_t index) {
         return may_be_carried(scene, index) &&
-               2 * way >= (scene.any_beside_sleeper ? least_beside_sleepers : least_strike(scene, index));
+               saturating_double(way) >=
+                   (scene.any_beside_sleeper ? least_beside_sleepers : least_strike(scene, index));
     };
     return may_carry(body_a) || (is_body(other) && may_carry(other));
 }
@@ -228,8 +304,8 @@ void note_strike_pair(RigidScene& scene, const StrikePair& pair) {
     }
 }
 
-bool spread_strikes(RigidScene& scene, const StepRate& rate) {
-    return Spread(scene, rate).run();
+bool spread_strikes(lks_world& world) {
+    return Spread(world).run();
 }
 
 } // namespace lks

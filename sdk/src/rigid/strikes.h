@@ -7,11 +7,12 @@
 //
 // What is awake, among what is awake, and is carried by less than half of the thickness of the thinnest, or
 // an eighth of its own, needs no room: who it has gone into by then parts from it on the side that it came
-// from. Nor do bones: their joints hold them.
+// from. Nor do bones that may pass nothing thin (rigid/struck_bones.h).
 #pragma once
 
 #include "fixed/vector.h"
-#include "solver/step_rate.h"
+
+struct lks_world;
 
 namespace lks {
 
@@ -30,11 +31,13 @@ struct Strike {
     fixed::Direction along; // where to
     bool anywhere;          // by several, or by what was struck itself
     bool beside_sleeper;    // it is awake, and who sleeps is near
+    bool of_bone;           // its joints turn it: it goes about there
+    bool is_near_wall;      // a bone: it may pass something that is near
 };
 
 struct StrikesOfPair {
-    Strike a;
-    Strike b;
+    const Strike& a;
+    const Strike& b;
 };
 
 // Two that may meet.
@@ -42,11 +45,28 @@ struct StrikePair {
     std::uint32_t body_a;
     std::uint32_t other;      // as of a contact
     fixed::Direction normal;  // from a to b
+    fixed::Direction drive;   // the same of how they move against each other, where they close by that
     Closing closing;          // by their own speeds
     std::int64_t restitution; // World
 };
 
 void begin_strikes(RigidScene& scene);
+// Whether it goes in another direction as well.
+bool goes_elsewhere(const Strike& strike, const fixed::Direction& along);
+// It is carried to within `room` of the way to `drive` and back.
+struct StruckWay {
+    fixed::Vec3 drive;
+    std::int64_t room;
+};
+StruckWay struck_way(const Strike& strike);
+// Of b against a, with what strikes them: from `begin` on it goes a part of `way`, along each axis of the
+// world, and is within `room` of that.
+struct WaysBetween {
+    fixed::Vec3 begin;
+    fixed::Vec3 way;
+    std::int64_t room;
+};
+WaysBetween ways_between(const fixed::Vec3& way, const StrikesOfPair& strikes);
 // By how far beyond its way it may come in that direction.
 Closing struck_closing(const Strike& strike, const fixed::Direction& direction);
 // Both towards each other; the normal is from a to b.
@@ -58,6 +78,6 @@ bool may_strike(const RigidScene& scene, std::uint32_t body_a, std::uint32_t oth
 void note_strike_pair(RigidScene& scene, const StrikePair& pair);
 // At the end of a search, which notes all pairs anew. True: somebody has been struck since the one before, or
 // further, and may find others now.
-bool spread_strikes(RigidScene& scene, const StepRate& rate);
+bool spread_strikes(lks_world& world);
 
 } // namespace lks

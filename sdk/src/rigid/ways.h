@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "collide/collider_motion.h"
 #include "collide/saturation.h"
 #include "fixed/formats.h"
 #include "rigid/body_motion.h"
@@ -49,6 +50,13 @@ inline std::int64_t turn_in(const Body& body, std::int64_t radius, std::int64_t 
     const std::int64_t turn = spin_speed(body.angular_velocity, radius) / n;
     // What is kinematic turns by a quarter at most in a tick.
     return limited && !body.is_dynamic() ? std::max(turn, saturating_double(radius)) : turn;
+}
+
+// How far points of a collider go by its turning: by a quarter at most in a tick.
+inline std::int64_t quarter_turn(const ColliderState& collider) {
+    const Shape& shape = collider.shape;
+    const bool plane = shape.kind == LKS_SHAPE_PLANE;
+    return 2 * (plane ? LKS_FIXED(64) : world_from_coordinate(bounding_radius(shape, 0)));
 }
 
 // What gravity adds to the way of a tick.
