@@ -39,6 +39,10 @@ struct DistanceWork {
 // room.
 void prepare_distances(const lks_asset& asset, const Coefficients& coefficients, const DistanceArrays& arrays,
                        bool in_rows, DistanceWork& work);
+// The first batch of one of its tasks.
+inline std::uint32_t first_batch(const DistanceTask& task, const DistanceWork& work) {
+    return static_cast<std::uint32_t>(task.parts - work.parts.data());
+}
 // Some constraints of a batch.
 BatchPart part_of_batch(const BatchPart& whole, const lks_asset& asset, std::uint32_t batch,
                         ConstraintRange range);

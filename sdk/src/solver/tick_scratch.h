@@ -21,7 +21,4 @@ struct TickScratch {
     lks_world_counters counters{};   // of this tick
 };
 
-// How many blocks a phase of one object is divided into at most.
-inline constexpr std::uint32_t greatest_block_count = 64;
-
 } // namespace lks
