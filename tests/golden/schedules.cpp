@@ -24,7 +24,7 @@ using namespace support;
 namespace {
 
 std::string golden_text(const std::string& scene) {
-    std::ifstream file(std::string(LOCKSTITCH_GOLDEN_FOLDER) + "/states/" + scene + ".txt", std::ios::binary);
+    std::ifstream file(LOCKSTITCH_GOLDEN_FOLDER "/states/" + scene + ".txt", std::ios::binary);
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();
