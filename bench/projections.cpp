@@ -3,6 +3,7 @@
 #include <cstring>
 #include <new>
 
+#include "solver/object_arrays.h"
 #include "solver/side_by_side.h"
 
 namespace lks_bench {
@@ -21,13 +22,6 @@ Projections::Projections(lks_world* world) : world_(world) {
 
 Projections::Work Projections::work_of(lks::Object* const* objects, std::uint32_t count) const {
     lks::Object& object = *objects[0];
-    const lks::DistanceArrays arrays{object.axis(0),
-                                     object.axis(1),
-                                     object.axis(2),
-                                     object.start_axis(0),
-                                     object.start_axis(1),
-                                     object.start_axis(2),
-                                     object.multipliers.empty() ? nullptr : object.multipliers.data()};
     Work work;
     work.distances.set_allocator(world_->allocator);
     work.places.resize(count);
@@ -40,8 +34,9 @@ Projections::Work Projections::work_of(lks::Object* const* objects, std::uint32_
         work.particles = object.count();
         work.rows.emplace(object, work.scratch.data());
     }
-    prepare_distances(object.asset(), object.coefficients(), work.rows ? work.rows->arrays() : arrays,
-                      work.rows.has_value(), work.distances);
+    prepare_distances(object.asset(), object.coefficients(),
+                      work.rows ? work.rows->arrays() : distance_arrays(object), work.rows.has_value(),
+                      work.distances);
     put_side_by_side(objects, count, work.distances, work.places.data());
     return work;
 }

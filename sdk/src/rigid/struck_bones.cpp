@@ -16,6 +16,9 @@ namespace {
 
 using fixed::Vec3;
 
+// No shape is thinner.
+constexpr std::int64_t least_size = (std::int64_t{1} << world_fraction_bits) / 1000;
+
 bool is_wall(const RigidScene& scene, std::uint32_t body) {
     return scene.body_slots[body].used && !scene.bodies[body].jointed;
 }
@@ -166,6 +169,9 @@ void find_thinnest_wall(lks_world& world) {
     }
     // Two that meet close by both their ways, and what is struck goes off by twice that at most.
     const std::int64_t farthest = saturating_double(saturating_double(greatest_way(world)));
+    if (farthest <= least_size) {
+        return;
+    }
     const auto look = [&](std::int64_t thickness) {
         if (thickness < farthest) {
             scene.thinnest_wall = std::min(scene.thinnest_wall, thickness);
