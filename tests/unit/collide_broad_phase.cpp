@@ -1,7 +1,5 @@
 // The broad phase loses no contact, rejects what is clearly away, and is defined for all numbers.
 #include "collide_support.h"
-#include "support/handles.h"
-#include "support/sanitised.h"
 
 #include <doctest/doctest.h>
 
@@ -12,11 +10,6 @@ using lks::Shape;
 using lks::fixed::Vec3;
 
 namespace {
-
-// All of them in long runs.
-int samples(int all) {
-    return support::sanitised ? all / 10 : support::long_runs() ? all : all / 2;
-}
 
 ColliderState random_collider(Dice& dice, Real reach) {
     const Shape shapes[] = {plane(), sphere(dice.between(0.01L, 2)),

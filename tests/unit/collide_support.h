@@ -10,9 +10,16 @@
 #include "collide/contact.h"
 #include "fixed/formats.h"
 #include "solver/object.h"
+#include "support/handles.h"
 #include "support/numbers.h"
+#include "support/sanitised.h"
 
 namespace collide_test {
+
+// All of them in long runs.
+inline int samples(int all) {
+    return support::sanitised ? all / 10 : support::long_runs() ? all : all / 2;
+}
 
 using Real = long double;
 

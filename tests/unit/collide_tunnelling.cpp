@@ -1,7 +1,6 @@
 // Nothing gets through: thousands of random shots at up to 100 m/s, against plates, balls and everything
 // else, at rest and moving, each substep judged by a reference in long double.
 #include "collide_support.h"
-#include "support/handles.h"
 #include "support/sanitised.h"
 
 #include <doctest/doctest.h>
@@ -12,11 +11,6 @@ using lks::ContactFrame;
 using lks::Shape;
 
 namespace {
-
-// All of them in long runs.
-int shots_of(int all) {
-    return support::sanitised ? all / 10 : support::long_runs() ? all : all / 2;
-}
 
 constexpr Real tolerance = 1e-6L;
 
@@ -161,7 +155,7 @@ TEST_CASE("collide: so do shots at shapes that move and turn") {
 TEST_CASE("collide: grazing shots along faces, edges and corners are kept outside") {
     Dice dice(21);
     Verdict verdict;
-    for (int shot = 0; shot < shots_of(6000); ++shot) {
+    for (int shot = 0; shot < samples(6000); ++shot) {
         const Shape shape = random_solid(dice);
         const Point size = size_of(shape);
         const auto substeps = 1 + dice.below(20);
@@ -188,13 +182,13 @@ TEST_CASE("collide: grazing shots along faces, edges and corners are kept outsid
             judge(particle, particle.frame(collider, 1, 1), verdict);
         }
     }
-    check(verdict, shots_of(1000));
+    check(verdict, samples(1000));
 }
 
 TEST_CASE("collide: a particle stays on its side of a large plate that comes and turns at it") {
     Dice dice(31);
     int hits = 0;
-    for (int shot = 0; shot < shots_of(3000); ++shot) {
+    for (int shot = 0; shot < samples(3000); ++shot) {
         const auto substeps = 1 + dice.below(20);
         const Real thickness = 0.025L;
         ColliderState collider = resting(box(30, thickness, 30), dice.in_cube(1), dice.rotation(360));
@@ -226,12 +220,12 @@ TEST_CASE("collide: a particle stays on its side of a large plate that comes and
             finish_motion(collider);
         }
     }
-    CHECK(hits > shots_of(5000));
+    CHECK(hits > samples(5000));
 }
 
 TEST_CASE("collide: a particle that is resting on a plate is not shot through it") {
     Dice dice(41);
-    for (int shot = 0; shot < shots_of(2000); ++shot) {
+    for (int shot = 0; shot < samples(2000); ++shot) {
         const ColliderState collider = resting(box(5, 0.025L, 5), {}, dice.rotation(360));
         const lks::fixed::Matrix3 matrix = lks::fixed::to_matrix(collider.rotation);
         // On the surface, give or take what rounding or the tolerance of a hit may leave.
@@ -249,7 +243,7 @@ TEST_CASE("collide: a particle that is resting on a plate is not shot through it
 TEST_CASE("collide: planes keep everything above, at rest, moving and turning") {
     Dice dice(51);
     int hits = 0;
-    for (int shot = 0; shot < shots_of(4000); ++shot) {
+    for (int shot = 0; shot < samples(4000); ++shot) {
         const auto substeps = 1 + dice.below(20);
         const Real far = std::pow(Real(10), dice.between(0, 3));
         ColliderState collider = resting(plane(), {}, dice.rotation(360));
@@ -291,7 +285,7 @@ TEST_CASE("collide: planes keep everything above, at rest, moving and turning") 
             finish_motion(collider);
         }
     }
-    CHECK(hits > shots_of(5000));
+    CHECK(hits > samples(5000));
 }
 
 TEST_CASE("collide: the largest shapes push from beyond the range of relative positions") {

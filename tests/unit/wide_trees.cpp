@@ -74,6 +74,7 @@ public:
     void find() {
         find_articulations(scene);
         REQUIRE(scene.figures.resize(scene.bodies.size()));
+        join_figures(scene);
         find_figures(scene);
         find_bundles(scene);
     }

@@ -37,6 +37,15 @@ constexpr Shape world_shape(const Shape& shape) {
             {world_from_coordinate(e.x), world_from_coordinate(e.y), world_from_coordinate(e.z)}};
 }
 
+// From its middle to its nearest side; endless for planes. Of whatever has a shape's kind and sizes.
+template <typename Solid>
+constexpr std::int64_t thickness(const Solid& solid) {
+    const fixed::Vec3& e = solid.half_extents;
+    return solid.kind == LKS_SHAPE_PLANE ? INT64_MAX
+           : solid.kind == LKS_SHAPE_BOX ? std::min({e.x, e.y, e.z})
+                                         : solid.radius;
+}
+
 struct SurfacePoint {
     std::int64_t distance;   // negative inside
     fixed::Direction normal; // outwards

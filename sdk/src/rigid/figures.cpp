@@ -52,17 +52,22 @@ void find_ranges(RigidScene& scene) {
 
 } // namespace
 
-void find_figures(RigidScene& scene) {
+void join_figures(RigidScene& scene) {
     BodyRoots roots(scene, scene.figures);
     roots.join_by_joints();
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        scene.figures[i] = roots.root(i);
+    }
+}
+
+void find_figures(RigidScene& scene) {
     scene.figure_parts.clear();
     const auto add = [&](std::uint32_t body, Part kind, std::size_t index) {
         if (scene.bodies[body].is_awake()) {
-            scene.figure_parts.push_reserved(name_part(roots.root(body), kind, index));
+            scene.figure_parts.push_reserved(name_part(scene.figures[body], kind, index));
         }
     };
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-        scene.figures[i] = roots.root(i);
         if (scene.body_slots[i].used) {
             add(i, Part::body, i);
         }
@@ -81,7 +86,7 @@ void find_figures(RigidScene& scene) {
         const ContactKey& key = scene.contacts[i].key;
         const bool a_moves = scene.bodies[key.body_a].is_awake();
         const bool b_moves = key.other < other_is_collider && scene.bodies[key.other].is_awake();
-        if (a_moves && b_moves && roots.root(key.body_a) != roots.root(key.other)) {
+        if (a_moves && b_moves && scene.figures[key.body_a] != scene.figures[key.other]) {
             add(key.body_a, Part::shared_contact, i);
             add(key.other, Part::shared_contact, i);
             scene.shared_contacts.push_reserved(i);

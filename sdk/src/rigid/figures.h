@@ -7,7 +7,9 @@
 
 namespace lks {
 
-// Of what is awake in this tick, in the order of the least bodies. After find_articulations.
+// Into scene.figures, once a tick: joints come and go between ticks.
+void join_figures(RigidScene& scene);
+// Of what is awake in this tick, in the order of the least bodies. After join_figures and find_articulations.
 void find_figures(RigidScene& scene);
 
 // The least index of its bodies, which names it.

@@ -185,11 +185,6 @@ std::int64_t bounding_radius(const BodyShape& shape) {
     return shape.radius + (shape.kind == LKS_SHAPE_CAPSULE ? shape.half_length : 0);
 }
 
-std::int64_t thickness(const BodyShape& shape) {
-    const fixed::Vec3& half = shape.half_extents;
-    return shape.kind == LKS_SHAPE_BOX ? std::min({half.x, half.y, half.z}) : shape.radius;
-}
-
 MassProperties mass_properties(const BodyShape* shapes, std::uint32_t count) {
     MassProperties out{};
     Scaled masses[LKS_MAX_BODY_SHAPES];

@@ -45,8 +45,6 @@ struct MassProperties {
 
 // The radius of a ball about the shape's own centre that contains it; World.
 std::int64_t bounding_radius(const BodyShape& shape);
-// Half of it.
-std::int64_t thickness(const BodyShape& shape);
 
 // At most eight shapes, within 64 m of the frame's origin, sizes from 1 mm to 30 m, densities above zero.
 MassProperties mass_properties(const BodyShape* shapes, std::uint32_t count);

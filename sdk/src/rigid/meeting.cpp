@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
+#include "collide/shape.h"
 #include "fixed/formats.h"
 #include "rigid/piece_bounds.h"
 

@@ -78,7 +78,7 @@ private:
         const StruckWay struck = struck_way(scene_.strikes[index]);
         const std::int64_t room =
             near_distance / 2 + scene_.travels[index] + struck.room + aside(sum_of_magnitudes(way));
-        Box box{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
+        Box box = empty_box;
         for (std::uint32_t i = 0; i < scene_.descriptions[index].shape_count; ++i) {
             const Vec3 reach = scene_.piece_extent(index, i) + Vec3{room, room, room};
             const Vec3 centre = body.position + scene_.piece(index, i).centre;
@@ -96,13 +96,6 @@ private:
             }
         }
         return box;
-    }
-
-    static void include(Box& box, const Vec3& p, const Vec3& reach) {
-        const Vec3 low = saturating_subtract(p, reach);
-        const Vec3 high = saturating_add(p, reach);
-        box.low = {std::min(box.low.x, low.x), std::min(box.low.y, low.y), std::min(box.low.z, low.z)};
-        box.high = {std::max(box.high.x, high.x), std::max(box.high.y, high.y), std::max(box.high.z, high.z)};
     }
 
     // Planes meet everybody; what is above them is found out with the points.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "collide/saturation.h"
 #include "fixed/vector.h"
 #include "memory/array.h"
 
@@ -25,6 +26,16 @@ struct Box {
                 (other.low.y <= high.y) & (low.z <= other.high.z) & (other.low.z <= high.z)) != 0;
     }
 };
+
+inline constexpr Box empty_box{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
+
+// And what is within `reach` of a point along each axis.
+inline void include(Box& box, const fixed::Vec3& p, const fixed::Vec3& reach) {
+    const fixed::Vec3 low = saturating_subtract(p, reach);
+    const fixed::Vec3 high = saturating_add(p, reach);
+    box.low = {std::min(box.low.x, low.x), std::min(box.low.y, low.y), std::min(box.low.z, low.z)};
+    box.high = {std::max(box.high.x, high.x), std::max(box.high.y, high.y), std::max(box.high.z, high.z)};
+}
 
 class Overlaps {
 public:

@@ -10,16 +10,6 @@ namespace lks {
 
 using fixed::Vec3;
 
-std::int64_t thickness(const Piece& piece) {
-    if (piece.kind == LKS_SHAPE_PLANE) {
-        return INT64_MAX;
-    }
-    if (piece.kind == LKS_SHAPE_BOX) {
-        return std::min({piece.half_extents.x, piece.half_extents.y, piece.half_extents.z});
-    }
-    return piece.radius;
-}
-
 std::int64_t reach(const Piece& piece) {
     if (piece.kind == LKS_SHAPE_BOX) {
         return piece.half_extents.x + piece.half_extents.y + piece.half_extents.z;

@@ -5,8 +5,6 @@
 
 namespace lks {
 
-// From its middle to its nearest side; endless for planes.
-std::int64_t thickness(const Piece& piece);
 // From its middle to its farthest point, or further. Not for planes.
 std::int64_t reach(const Piece& piece);
 // Half its size along the axes of the world. Not for planes.

@@ -97,8 +97,8 @@ struct RigidScene {
     Array<StrikePair> strike_pairs;
     bool any_beside_sleeper = false;
     std::int64_t thinnest = 0; // of all bodies
-    std::int64_t thinnest_wall =
-        0; // of what bones are not to pass (rigid/struck_bones.h); INT64_MAX: nothing
+    // Of what bones are not to pass (rigid/struck_bones.h); INT64_MAX: nothing.
+    std::int64_t thinnest_wall = 0;
     Overlaps overlaps;
     Array<std::uint32_t> boxed;   // by box: body, or collider | other_is_collider
     Array<std::uint64_t> pairs;   // body a << 32 | other, ascending

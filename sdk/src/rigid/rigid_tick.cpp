@@ -38,6 +38,7 @@ public:
         }
         prepare();
         scene_.contacts.clear();
+        join_figures(scene_);
         if (moves) {
             find_contacts(world_, team_);
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collide/saturation.h"
+#include "collide/shape.h"
 #include "rigid/contact_search.h"
 #include "rigid/meeting.h"
 #include "rigid/piece_bounds.h"

@@ -77,7 +77,6 @@ public:
             scene_.spread_strikes.push_reserved(strike);
         }
         const bool with_walls = scene_.thinnest_wall != INT64_MAX;
-        find_struck_figures(scene_);
         constexpr int most_passes = 16;
         for (int pass = 0; pass < most_passes && sweep(); ++pass) {
             if (with_walls) {
@@ -191,7 +190,6 @@ private:
         now.way = part;
         now.speed = std::max(now.speed, std::min(shared(closing.speed), most));
         now.along = driven;
-        now.of_bone = bone;
         return true;
     }
 
@@ -224,6 +222,7 @@ void begin_strikes(RigidScene& scene) {
     scene.any_beside_sleeper = false;
     scene.thinnest = INT64_MAX;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        scene.strikes[i].of_bone = scene.bodies[i].jointed;
         if (scene.body_slots[i].used) {
             scene.thinnest = std::min(scene.thinnest, scene.descriptions[i].thickness);
         }

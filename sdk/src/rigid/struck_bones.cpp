@@ -4,7 +4,7 @@
 
 #include "collide/filter.h"
 #include "collide/saturation.h"
-#include "rigid/body_roots.h"
+#include "collide/shape.h"
 #include "rigid/contact_search.h"
 #include "rigid/piece_bounds.h"
 #include "rigid/placed_pieces.h"
@@ -27,25 +27,20 @@ bool is_wall(const ColliderSlot& slot) {
     return slot.used && slot.collider.shape.kind != LKS_SHAPE_PLANE;
 }
 
-std::int64_t thickness(const ColliderState& collider) {
-    const Shape shape = world_shape(collider.shape);
-    Piece piece{};
-    piece.kind = shape.kind;
-    piece.radius = shape.radius;
-    piece.half_extents = shape.half_extents;
-    return thickness(piece);
+std::int64_t thickness_of(const ColliderState& collider) {
+    return world_from_coordinate(thickness(collider.shape));
 }
 
 std::int64_t thickness_of_wall(const lks_world& world, std::uint32_t other) {
     return other < other_is_collider ? world.rigid.descriptions[other].thickness
-                                     : thickness(collider_of(world, other));
+                                     : thickness_of(collider_of(world, other));
 }
 
 Box box_around(const Vec3& centre, const Vec3& way, const Vec3& reach) {
-    const Vec3 end = saturating_add(centre, way);
-    const Vec3 low{std::min(centre.x, end.x), std::min(centre.y, end.y), std::min(centre.z, end.z)};
-    const Vec3 high{std::max(centre.x, end.x), std::max(centre.y, end.y), std::max(centre.z, end.z)};
-    return {saturating_subtract(low, reach), saturating_add(high, reach)};
+    Box box = empty_box;
+    include(box, centre, reach);
+    include(box, saturating_add(centre, way), reach);
+    return box;
 }
 
 Box box_around(const Vec3& centre, const Vec3& way, std::int64_t reach) {
@@ -155,7 +150,6 @@ Strike carried_with(const Strike& now, const Strike& other) {
     both.way = other.way;
     both.speed = std::max(now.speed, other.speed);
     both.along = other.along;
-    both.of_bone = true;
     return both;
 }
 
@@ -184,21 +178,13 @@ void find_thinnest_wall(lks_world& world) {
     }
     for (const ColliderSlot& slot : world.colliders) {
         if (is_wall(slot)) {
-            look(thickness(slot.collider));
+            look(thickness_of(slot.collider));
         }
     }
 }
 
 std::int64_t least_way_through(const RigidScene& scene, std::uint32_t bone) {
     return fixed::saturating_add(scene.descriptions[bone].thickness, scene.thinnest_wall);
-}
-
-void find_struck_figures(RigidScene& scene) {
-    BodyRoots roots(scene, scene.figures);
-    roots.join_by_joints();
-    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-        scene.figures[i] = roots.root(i);
-    }
 }
 
 void carry_figures(RigidScene& scene) {

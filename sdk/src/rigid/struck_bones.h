@@ -18,10 +18,7 @@ void find_thinnest_wall(lks_world& world);
 // By how much a bone may be carried off its way, and pass the middle of nothing in the world.
 std::int64_t least_way_through(const RigidScene& scene, std::uint32_t bone);
 
-// Into scene.figures, which is free until contacts are found: the least body of each figure.
-void find_struck_figures(RigidScene& scene);
-
-// Among scene.spread_strikes, after that:
+// Among scene.spread_strikes:
 // Every bone is carried as far as the one of its figure that is carried the furthest, if that may pass
 // anything.
 void carry_figures(RigidScene& scene);
