@@ -17,7 +17,7 @@ using namespace lks;
 
 namespace {
 
-bool reserve_slot(lks_world& world, std::uint32_t index) {
+bool reserve_body(lks_world& world, std::uint32_t index) {
     if (index < world.rigid.body_room()) {
         return true;
     }
@@ -121,7 +121,7 @@ lks_result lks_world_add_body(lks_world* world, const lks_body_def* def, lks_bod
         return world->fail(LKS_ERROR_LIMIT, Sentence()
                                                 << "A world holds at most " << LKS_MAX_BODIES << " bodies.");
     }
-    if (!reserve_slot(*world, index)) {
+    if (!reserve_body(*world, index)) {
         return world->fail_out_of_memory("a body");
     }
     if (index == scene.body_slots.size()) {

@@ -7,26 +7,29 @@
 namespace lks {
 namespace {
 
-constexpr lks_fixed least_size = LKS_FIXED_RATIO(1, 1000);
-constexpr lks_fixed greatest_size = LKS_FIXED(30);
+// Of a shape: kg/m³.
+constexpr lks_fixed least_density = LKS_FIXED_RATIO(1, 1000);
+constexpr lks_fixed greatest_density = LKS_FIXED(100000);
 
 lks_result check_shape(const lks_world& world, const lks_body_shape& shape) {
     lks_result result = LKS_OK;
     switch (shape.shape) {
     case LKS_SHAPE_SPHERE:
-        result =
-            check_numbers(world, {Number{"sphere's radius", " m", shape.radius, least_size, greatest_size}});
+        result = check_numbers(
+            world, {Number{"sphere's radius", " m", shape.radius, least_shape_size, greatest_shape_size}});
         break;
     case LKS_SHAPE_CAPSULE:
-        result = check_numbers(world,
-                               {Number{"capsule's radius", " m", shape.radius, least_size, greatest_size},
-                                Number{"capsule's half_length", " m", shape.half_length, 0, greatest_size}});
+        result = check_numbers(
+            world, {Number{"capsule's radius", " m", shape.radius, least_shape_size, greatest_shape_size},
+                    Number{"capsule's half_length", " m", shape.half_length, 0, greatest_shape_size}});
         break;
     case LKS_SHAPE_BOX:
         result = check_numbers(
-            world, {Number{"box's half extent x", " m", shape.half_extents.x, least_size, greatest_size},
-                    Number{"box's half extent y", " m", shape.half_extents.y, least_size, greatest_size},
-                    Number{"box's half extent z", " m", shape.half_extents.z, least_size, greatest_size}});
+            world,
+            {Number{"box's half extent x", " m", shape.half_extents.x, least_shape_size, greatest_shape_size},
+             Number{"box's half extent y", " m", shape.half_extents.y, least_shape_size, greatest_shape_size},
+             Number{"box's half extent z", " m", shape.half_extents.z, least_shape_size,
+                    greatest_shape_size}});
         break;
     default:
         return world.fail(
@@ -41,14 +44,15 @@ lks_result check_shape(const lks_world& world, const lks_body_shape& shape) {
         return world.fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "The shape's reserved field is "
                                                                  << shape.reserved << "; it must be 0.");
     }
-    if (!within(shape.transform.position, greatest_size)) {
-        return world.fail(LKS_ERROR_INVALID_ARGUMENT,
-                          out_of_range("shape's position", shape.transform.position, "m", greatest_size));
+    if (!within(shape.transform.position, greatest_shape_size)) {
+        return world.fail(
+            LKS_ERROR_INVALID_ARGUMENT,
+            out_of_range("shape's position", shape.transform.position, "m", greatest_shape_size));
     }
     result = check_rotation(world, shape.transform.rotation);
     return result != LKS_OK ? result
                             : check_numbers(world, {Number{"shape's density", " kg/m³", shape.density,
-                                                           least_size, LKS_FIXED(100000)}});
+                                                           least_density, greatest_density}});
 }
 
 lks_result check_shapes(const lks_world& world, const lks_body_def& def) {

@@ -56,7 +56,7 @@ bool jumps(const ColliderState& collider, const fixed::Vec3& position, const fix
     return way > near_distance;
 }
 
-bool reserve_slot(lks_world& world, std::uint32_t index) {
+bool reserve_collider(lks_world& world, std::uint32_t index) {
     if (index < world.colliders.capacity()) {
         return true;
     }
@@ -116,7 +116,7 @@ lks_result lks_world_add_collider(lks_world* world, const lks_collider_def* def,
         return world->fail(LKS_ERROR_LIMIT,
                            Sentence() << "A world holds at most " << LKS_MAX_COLLIDERS << " colliders.");
     }
-    if (!reserve_slot(*world, index)) {
+    if (!reserve_collider(*world, index)) {
         return world->fail_out_of_memory("a collider");
     }
     if (index == world->colliders.size()) {

@@ -5,8 +5,6 @@
 namespace lks {
 namespace {
 
-constexpr lks_fixed least_size = LKS_FIXED_RATIO(1, 1000);
-constexpr lks_fixed greatest_size = LKS_FIXED(30);
 constexpr lks_fixed greatest_friction = LKS_FIXED(100);
 constexpr std::int64_t greatest_move = LKS_FIXED(100);
 
@@ -17,13 +15,14 @@ struct Size {
 };
 
 bool in_range(const Size& size) {
-    return size.value >= size.least && size.value <= greatest_size;
+    return size.value >= size.least && size.value <= greatest_shape_size;
 }
 
 lks_result check_size(const lks_world& world, const Size& size) {
-    return in_range(size) ? LKS_OK
-                          : world.fail(LKS_ERROR_INVALID_ARGUMENT,
-                                       out_of_range(size.name, size.value, " m", size.least, greatest_size));
+    return in_range(size)
+               ? LKS_OK
+               : world.fail(LKS_ERROR_INVALID_ARGUMENT,
+                            out_of_range(size.name, size.value, " m", size.least, greatest_shape_size));
 }
 
 // The angle between two unit quaternions is at most 90° where |q·p| ≥ cos 45°; a little room for rounding.
@@ -50,7 +49,7 @@ bool surface_is_valid(const ColliderState& collider) {
 
 bool is_coordinate_size(std::int64_t value, lks_fixed least) {
     constexpr std::int64_t scale = std::int64_t{1} << coordinate_from_world_shift;
-    return value >= least * scale && value <= greatest_size * scale && value % scale == 0;
+    return value >= least * scale && value <= greatest_shape_size * scale && value % scale == 0;
 }
 
 bool shape_is_valid(const Shape& shape) {
@@ -60,13 +59,13 @@ bool shape_is_valid(const Shape& shape) {
     case LKS_SHAPE_PLANE:
         return shape.radius == 0 && shape.half_length == 0 && no_extents;
     case LKS_SHAPE_SPHERE:
-        return is_coordinate_size(shape.radius, least_size) && shape.half_length == 0 && no_extents;
+        return is_coordinate_size(shape.radius, least_shape_size) && shape.half_length == 0 && no_extents;
     case LKS_SHAPE_CAPSULE:
-        return is_coordinate_size(shape.radius, least_size) && is_coordinate_size(shape.half_length, 0) &&
-               no_extents;
+        return is_coordinate_size(shape.radius, least_shape_size) &&
+               is_coordinate_size(shape.half_length, 0) && no_extents;
     case LKS_SHAPE_BOX:
-        return shape.radius == 0 && shape.half_length == 0 && is_coordinate_size(e.x, least_size) &&
-               is_coordinate_size(e.y, least_size) && is_coordinate_size(e.z, least_size);
+        return shape.radius == 0 && shape.half_length == 0 && is_coordinate_size(e.x, least_shape_size) &&
+               is_coordinate_size(e.y, least_shape_size) && is_coordinate_size(e.z, least_shape_size);
     default:
         return false;
     }
@@ -84,15 +83,15 @@ lks_result check_collider_def(const lks_world& world, const lks_collider_def& de
         if (result != LKS_OK) {
             return result;
         }
-        result = check_size(world, {"capsule's radius", def.radius, least_size});
+        result = check_size(world, {"capsule's radius", def.radius, least_shape_size});
         break;
     case LKS_SHAPE_SPHERE:
-        result = check_size(world, {"sphere's radius", def.radius, least_size});
+        result = check_size(world, {"sphere's radius", def.radius, least_shape_size});
         break;
     case LKS_SHAPE_BOX:
-        for (const Size& size : {Size{"box's half extent x", def.half_extents.x, least_size},
-                                 Size{"box's half extent y", def.half_extents.y, least_size},
-                                 Size{"box's half extent z", def.half_extents.z, least_size}}) {
+        for (const Size& size : {Size{"box's half extent x", def.half_extents.x, least_shape_size},
+                                 Size{"box's half extent y", def.half_extents.y, least_shape_size},
+                                 Size{"box's half extent z", def.half_extents.z, least_shape_size}}) {
             result = result == LKS_OK ? check_size(world, size) : result;
         }
         break;

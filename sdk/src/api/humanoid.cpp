@@ -5,14 +5,14 @@
 
 #include <cstdint>
 
+#include "api/millimetres.h"
+
 namespace {
 
-constexpr lks_fixed millimetres(std::int64_t n) {
-    return LKS_FIXED_RATIO(n, 1000);
-}
+using lks::millimetres;
 
 // One bone. Lengths in millimetres, the mass in grams; x is to the left, y up, z to the front.
-struct Part {
+struct Bone {
     std::uint32_t parent;
     std::uint32_t shape;
     std::int32_t x, y, z;             // centre
@@ -30,7 +30,7 @@ constexpr std::uint32_t box = LKS_SHAPE_BOX;
 constexpr std::uint32_t ball = LKS_JOINT_BALL;
 constexpr std::uint32_t hinge = LKS_JOINT_HINGE;
 
-constexpr Part parts[LKS_HUMANOID_BONES] = {
+constexpr Bone parts[LKS_HUMANOID_BONES] = {
     {LKS_NO_PARENT, box, 0, 990, 0, 0, 0, 150, 90, 95, 11500, ball, 0, 0, 0, 0, 0, 0, 0},
     {LKS_HUMANOID_PELVIS, box, 0, 1285, 0, 0, 0, 165, 185, 100, 28100, ball, 0, 1090, 0, 30, -30, 30, 800},
     {LKS_HUMANOID_CHEST, capsule, 0, 1660, 10, 95, 50, 0, 0, 0, 5000, ball, 0, 1500, 0, 40, -60, 60, 200},
@@ -73,7 +73,7 @@ extern "C" lks_result lks_humanoid(lks_bone bones[LKS_HUMANOID_BONES],
         return LKS_ERROR_NULL_ARGUMENT;
     }
     for (std::uint32_t i = 0; i < LKS_HUMANOID_BONES; ++i) {
-        const Part& part = parts[i];
+        const Bone& part = parts[i];
         lks_body_shape& shape = shapes[i];
         shape = lks_default_body_shape();
         shape.shape = part.shape;

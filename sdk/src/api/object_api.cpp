@@ -64,7 +64,7 @@ void place_particles(Object& object, const lks_object_def& def, const StepRate& 
 }
 
 // Room for an object at this index, which is at most one more than all. False: no memory.
-bool reserve_slot(lks_world& world, std::uint32_t index) {
+bool reserve_object(lks_world& world, std::uint32_t index) {
     if (index < world.objects.size()) {
         return true;
     }
@@ -108,7 +108,7 @@ lks_result lks_world_add_object(lks_world* world, const lks_object_def* def, lks
     }
     const std::size_t known_before = world->assets.size();
     const KnownAsset* known = world->know_asset(*def->asset);
-    Object* made = known == nullptr || !reserve_slot(*world, index)
+    Object* made = known == nullptr || !reserve_object(*world, index)
                        ? nullptr
                        : world->make_object(*known, def->record_forces != 0);
     if (made == nullptr) {

@@ -4,13 +4,12 @@
 
 #include <cstdint>
 
+#include "api/millimetres.h"
 #include "fixed/int128.h"
 
 namespace {
 
-constexpr lks_fixed millimetres(std::int64_t n) {
-    return LKS_FIXED_RATIO(n, 1000);
-}
+using lks::millimetres;
 
 // Where a leg's parts meet, millimetres: hip, knee, foot. Of the left side (x > 0), from front to back.
 struct Leg {

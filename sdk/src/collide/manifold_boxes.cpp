@@ -13,7 +13,7 @@ using fixed::Direction;
 using fixed::Vec3;
 
 // A tenth of a millimetre.
-constexpr std::int64_t tolerance = (std::int64_t{1} << world_fraction_bits) / 10000;
+constexpr std::int64_t tolerance = world_one / 10000;
 
 struct Corner {
     std::int64_t u, v;  // in the reference face

@@ -75,7 +75,7 @@ fixed::Vec3 carried(const ContactFrame& frame, const fixed::Vec3& point, const f
     return result;
 }
 
-bool is_followed(const fixed::Vec3& v) {
+bool is_carried_so_far(const fixed::Vec3& v) {
     constexpr auto limit = static_cast<std::uint64_t>(greatest_carry);
     return fixed::magnitude(v.x) <= limit && fixed::magnitude(v.y) <= limit && fixed::magnitude(v.z) <= limit;
 }
@@ -118,7 +118,8 @@ bool place_plane(ContactFrame& frame, const fixed::Vec3& start, const fixed::Vec
     }
     frame.start_centre = into_plane(middle, plane_normal(frame.start_rotation), start, origin);
     const fixed::Vec3 motion = carried(frame, frame.start_centre, start, end, origin);
-    const fixed::Vec3 end_point = is_followed(motion) ? saturating_add(frame.start_centre, motion) : middle;
+    const fixed::Vec3 end_point =
+        is_carried_so_far(motion) ? saturating_add(frame.start_centre, motion) : middle;
     frame.end_centre = into_plane(end_point, end_normal, end, origin);
     return true;
 }

@@ -8,6 +8,7 @@ namespace lks {
 
 // World: lks_fixed. Metres, m/s, N·s and plain factors at the API; object origins.
 inline constexpr int world_fraction_bits = 40;
+inline constexpr std::int64_t world_one = std::int64_t{1} << world_fraction_bits;
 
 // Coordinate: a particle relative to its object's origin, metres. Velocities are differences of coordinates,
 // in metres a substep, in the same unit: exact.

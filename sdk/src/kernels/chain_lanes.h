@@ -269,7 +269,7 @@ public:
     // Whether one of them may be left off its length: between particle i and the one before, and so on.
     LKS_FORCE_INLINE static bool may_leave_off(const ChainAcross& task, std::uint32_t i) {
         const R rest = L::load(task.rest_lengths + i - 1);
-        const R apart_limit = L::template shift_right<turn_shift>(rest);
+        const R apart_limit = L::template shift_right<turned_shift>(rest);
         const R change_limit = L::template shift_right<error_shift + 1>(rest);
         R beyond = L::set(0);
         for (int axis = 0; axis < 3; ++axis) {

@@ -109,7 +109,7 @@ LKS_FORCE_INLINE CrossedParticle cross_particle(ChainAcross& task, std::uint32_t
 LKS_FORCE_INLINE bool leaves_off(const ChainAcross& task, std::uint32_t segment, const fixed::Vec3& apart,
                                  const fixed::Vec3& changed) {
     const std::int64_t rest = task.rest_lengths[segment];
-    if (!all_within(apart, rest >> turn_shift)) {
+    if (!all_within(apart, rest >> turned_shift)) {
         return true;
     }
     if (all_within(changed, rest >> (error_shift + 1))) { // and so in any direction

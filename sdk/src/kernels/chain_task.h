@@ -99,9 +99,9 @@ struct ChainShares {
     std::int64_t* gives; // what what is behind takes of it: far over part
 };
 
-// Where a segment's ends moved against each other by more than 2^-turn_shift of its length, or the second
+// Where a segment's ends moved against each other by more than 2^-turned_shift of its length, or the second
 // pass changed its length by more than 2^-error_shift, it is left off its length.
-inline constexpr int turn_shift = 5;
+inline constexpr int turned_shift = 5;
 inline constexpr int error_shift = 11;
 // Where a rope folds back by more than 176 degrees there is no "along"; of half the sum of two directions.
 inline constexpr std::uint64_t least_tangent_squared = std::uint64_t{1} << 50;

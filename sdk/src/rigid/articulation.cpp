@@ -16,15 +16,13 @@ using namespace tree_detail;
 using fixed::Direction;
 using fixed::Vec3;
 
-constexpr std::int64_t one = std::int64_t{1} << tree_fraction_bits;
-
 // (hω)² of a body's swing: a ten-thousandth of its inverse inertia is left, which has 30 bits. In uneven
 // trees these are moved along.
 constexpr std::int64_t greatest_load = std::int64_t{1} << (world_fraction_bits + 14);
 constexpr std::int64_t greatest_uneven_load = INT64_MAX;
 
 // D⁻¹ by D = L·diag·Lᵀ.
-SymmetricInverse invert(const std::int64_t (&d)[6]) {
+SymmetricInverse invert_symmetric(const std::int64_t (&d)[6]) {
     const auto m = lks::multiply_32;
     const Inverse first = invert_pivot(d[0]);
     const std::int64_t l21 = divide(d[1], first);
@@ -35,12 +33,12 @@ SymmetricInverse invert(const std::int64_t (&d)[6]) {
     const Inverse third = invert_pivot(minus(minus(d[5], m(l31, d[2])), m(l32, below)));
     // L⁻¹ has 1, −l21, l21·l32 − l31 and −l32.
     const std::int64_t corner = minus(m(l21, l32), l31);
-    const std::int64_t zz = divide(one, third);
-    const std::int64_t yy = divide(one, second);
+    const std::int64_t zz = divide(tree_one, third);
+    const std::int64_t yy = divide(tree_one, second);
     const std::int64_t yz = minus(0, m(l32, zz));
     const std::int64_t xz = m(corner, zz);
     const std::int64_t xy = minus(minus(0, m(l21, yy)), m(corner, m(l32, zz)));
-    const std::int64_t xx = plus(plus(divide(one, first), m(l21, m(l21, yy))), m(corner, xz));
+    const std::int64_t xx = plus(plus(divide(tree_one, first), m(l21, m(l21, yy))), m(corner, xz));
     return {{xx, xy, xz, minus(yy, m(l32, yz)), yz, zz}};
 }
 
@@ -58,7 +56,7 @@ void fold_in(ArticulatedInverse& w, const ArticulatedJoint& joint) {
 void factor_joint(RigidScene& scene, ArticulatedJoint& part) {
     std::int64_t d[6] = {};
     place_joint(scene, part, part.column_shift, part.column_turn, d);
-    part.inverse = invert(d);
+    part.inverse = invert_symmetric(d);
 }
 
 // A light link under a great tension swings faster than a substep: beyond what a substep can follow it turns
@@ -329,7 +327,7 @@ void invert_points(const TreeLanes (&motion)[6], std::uint32_t first, std::uint3
         for (int i = 0; i < 6; ++i) {
             d[i] = motion[i][lane];
         }
-        const SymmetricInverse inverted = invert(d);
+        const SymmetricInverse inverted = invert_symmetric(d);
         for (int i = 0; i < 6; ++i) {
             inverse[i][lane] = inverted.entries[i];
         }

@@ -11,6 +11,7 @@
 namespace lks::tree_detail {
 
 inline constexpr int tree_fraction_bits = 32;
+inline constexpr std::int64_t tree_one = std::int64_t{1} << tree_fraction_bits;
 
 // What an image made up may be anything: sums wrap.
 inline constexpr auto plus = fixed::wrapping_add;

@@ -41,8 +41,8 @@ std::int64_t share_of(const InverseMass& part, const InverseMass& whole, int mor
 
 // As a power of two: how often the farthest lever would have to be doubled to reach the point.
 int doublings_to(const Body& body, const Vec3& point) {
-    const std::int64_t unit = body.scale >= 0 ? std::int64_t{1} << (world_fraction_bits + body.scale)
-                                              : (std::int64_t{1} << world_fraction_bits) >> -body.scale;
+    const std::int64_t unit =
+        body.scale >= 0 ? std::int64_t{1} << (world_fraction_bits + body.scale) : world_one >> -body.scale;
     const std::int64_t distance = sum_of_magnitudes(point);
     int doublings = 0;
     while (distance >> doublings > farthest_lever * unit) {
@@ -156,7 +156,7 @@ private:
     bool fits(const Joint& joint) const {
         const JointDescription& d = joint.description;
         return sum_of_magnitudes(joint_offset(joint, scene_.bodies[d.body_a], scene_.bodies[d.body_b])) <=
-               (std::int64_t{1} << world_fraction_bits) / 1000;
+               world_one / 1000;
     }
 
     // The end of the links of the body at `i`.

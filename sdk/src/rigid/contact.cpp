@@ -13,9 +13,9 @@ using fixed::Direction;
 using fixed::Vec3;
 
 // Overlaps up to this stay: half a millimetre.
-constexpr std::int64_t allowed_overlap = (std::int64_t{1} << world_fraction_bits) / 2000;
+constexpr std::int64_t allowed_overlap = world_one / 2000;
 // Of jointed bodies, what is deeper than this is undone without speed: a centimetre.
-constexpr std::int64_t deep_overlap = (std::int64_t{1} << world_fraction_bits) / 100;
+constexpr std::int64_t deep_overlap = world_one / 100;
 // How fast the rest parts at most: 0.4 m/s.
 constexpr std::int64_t greatest_parting = (std::int64_t{2} << world_fraction_bits) / 5;
 
@@ -73,7 +73,7 @@ public:
     }
 
     void take_nearest(ContactPush& to) {
-        constexpr std::int64_t near = (std::int64_t{1} << world_fraction_bits) / 10;
+        constexpr std::int64_t near = world_one / 10;
         std::uint32_t best = count_;
         std::int64_t least = near;
         for (std::uint32_t i = 0; i < count_; ++i) {

@@ -19,14 +19,14 @@
 namespace lks {
 
 // What overlaps by more than this, five millimetres, sticks in the other.
-inline constexpr std::int64_t sticking_depth = (std::int64_t{1} << world_fraction_bits) / 200;
+inline constexpr std::int64_t sticking_depth = world_one / 200;
 
 // Surfaces that are nearer than this, a millimetre, touch.
-inline constexpr std::int64_t touching_distance = (std::int64_t{1} << world_fraction_bits) / 1000;
+inline constexpr std::int64_t touching_distance = world_one / 1000;
 
 // Points that are further apart than this, a centimetre, push nothing yet; others may still push them
 // together.
-inline constexpr std::int64_t near_point = (std::int64_t{1} << world_fraction_bits) / 100;
+inline constexpr std::int64_t near_point = world_one / 100;
 
 // Names a contact: the same pair of shapes has the same key from tick to tick.
 struct ContactKey {
@@ -118,7 +118,7 @@ struct Contact {
 };
 
 // What a substep of gravity alone does, and a centimetre a second more, is no impact and no sliding.
-inline constexpr std::int64_t slow_contact = (std::int64_t{1} << world_fraction_bits) / 100;
+inline constexpr std::int64_t slow_contact = world_one / 100;
 constexpr std::int64_t least_approach(std::int64_t gravity_speed) {
     return 4 * gravity_speed + slow_contact;
 }

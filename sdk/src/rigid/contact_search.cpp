@@ -31,7 +31,7 @@ auto& body_of(Scene& scene, std::uint32_t other) {
 }
 
 // Who comes more slowly than this wakes nobody by being near: a centimetre a second.
-constexpr std::int64_t gentle_speed = (std::int64_t{1} << world_fraction_bits) / 100;
+constexpr std::int64_t gentle_speed = world_one / 100;
 
 // Where they are now.
 bool touch(const RigidScene& scene, std::uint32_t a, std::uint32_t b) {

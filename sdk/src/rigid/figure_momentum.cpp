@@ -18,7 +18,7 @@ constexpr int sum_fraction_bits = 2 * world_fraction_bits;
 constexpr int share_fraction_bits = 30;
 constexpr int energy_fraction_bits = 64;
 
-Sum3 times(const Vec3& v, std::int64_t share) {
+Sum3 weighed(const Vec3& v, std::int64_t share) {
     return {fixed::multiply_signed(v.x, share), fixed::multiply_signed(v.y, share),
             fixed::multiply_signed(v.z, share)};
 }
@@ -92,7 +92,7 @@ Vec3 own_momentum(const MassProperties& properties, const Body& body) {
 }
 
 Sum3 spin_momentum(const Vec3& own, const MassProperties& properties, std::int64_t share) {
-    const Sum3 sum = times(own, share);
+    const Sum3 sum = weighed(own, share);
     const int up = sum_fraction_bits - world_fraction_bits - share_fraction_bits + 2 * properties.scale;
     return {scaled(sum.x, up), scaled(sum.y, up), scaled(sum.z, up)};
 }
@@ -134,17 +134,17 @@ void for_each_body(const RigidScene& scene, const FigureRange& figure, const Use
 } // namespace
 
 void FigureInertia::add_point(const Vec3& lever, std::int64_t share) {
-    const Vec3 weighed = share_of(lever, share);
+    const Vec3 weighted = share_of(lever, share);
     const auto m = [](std::int64_t a, std::int64_t b) { return fixed::multiply_signed(a, b); };
-    const Int128 x = m(lever.x, weighed.x);
-    const Int128 y = m(lever.y, weighed.y);
-    const Int128 z = m(lever.z, weighed.z);
+    const Int128 x = m(lever.x, weighted.x);
+    const Int128 y = m(lever.y, weighted.y);
+    const Int128 z = m(lever.z, weighted.z);
     xx_ = xx_ + y + z;
     yy_ = yy_ + x + z;
     zz_ = zz_ + x + y;
-    xy_ = xy_ - m(lever.x, weighed.y);
-    xz_ = xz_ - m(lever.x, weighed.z);
-    yz_ = yz_ - m(lever.y, weighed.z);
+    xy_ = xy_ - m(lever.x, weighted.y);
+    xz_ = xz_ - m(lever.x, weighted.z);
+    yz_ = yz_ - m(lever.y, weighted.z);
 }
 
 void FigureInertia::add_body(const SymmetricMatrix& inertia, std::int64_t share, int scale) {
@@ -225,8 +225,8 @@ FigureMomentum::FigureMomentum(const RigidScene& scene, const FigureRange& figur
     Sum3 position, velocity;
     std::uint64_t masses = 0;
     for_each_body(scene, figure, [&](std::uint32_t, const Body& body, std::int64_t share) {
-        position = position + times(saturating_subtract(body.position, first.position), share);
-        velocity = velocity + times(body.velocity - first.velocity, share);
+        position = position + weighed(saturating_subtract(body.position, first.position), share);
+        velocity = velocity + weighed(body.velocity - first.velocity, share);
         masses += static_cast<std::uint64_t>(share);
     });
     position_ = saturating_add(first.position, mean(position, masses));
@@ -309,8 +309,8 @@ Int128 work_of_gravity(const RigidScene& scene, const FigureRange& figure, const
         const Vec3 predicted = saturating_subtract(body.velocity, times_rate(moved_by, rate));
         const Vec3& gravity = scene.ticks[i].gravity_step;
         sum = sum + weighed(work(gravity, predicted), share);
-        moved = moved + times(predicted, share);
-        pull = pull + times(gravity, share);
+        moved = moved + weighed(predicted, share);
+        pull = pull + weighed(gravity, share);
         masses += static_cast<std::uint64_t>(share);
     });
     return sum - weighed(work(mean(pull, masses), mean(moved, masses)), static_cast<std::int64_t>(masses));

@@ -11,16 +11,16 @@ namespace {
 using fixed::Vec3;
 
 // Overlaps up to this are left to the contacts: a millimetre.
-constexpr std::int64_t allowed_overlap = (std::int64_t{1} << world_fraction_bits) / 1000;
+constexpr std::int64_t left_to_contacts = world_one / 1000;
 // Of the rest so much is undone in a tick, at 7 cm/s at most: what is lifted faster than that falls back as
 // fast, and a heap goes on falling into the ground and being lifted out of it.
 constexpr std::int64_t share_a_tick = 3; // the third part
-constexpr std::int64_t gentle_speed = (std::int64_t{7} << world_fraction_bits) / 100;
+constexpr std::int64_t gentle_lift = (std::int64_t{7} << world_fraction_bits) / 100;
 // Pairs that want opposite things meet between them: each asks for less by a quarter of what it has pushed.
 constexpr std::int64_t firmness = 4;
 // In longer substeps than these what gives way comes to lie deep: there nobody does, at 0.4 m/s at most.
 constexpr std::uint64_t gentle_rate = 400;
-constexpr std::int64_t firm_speed = (std::int64_t{2} << world_fraction_bits) / 5;
+constexpr std::int64_t firm_lift = (std::int64_t{2} << world_fraction_bits) / 5;
 constexpr int sweeps = 4; // forward and back
 
 // All masses together: 1/m divided by how many times m they are, 30 fraction bits, at least one.
@@ -35,7 +35,7 @@ class Parting {
 public:
     Parting(RigidScene& scene, const StepRate& rate)
         : scene_(scene), gentle_(rate.substeps_per_second >= gentle_rate),
-          most_((gentle_ ? gentle_speed : firm_speed) / rate.ticks_per_second) {}
+          most_((gentle_ ? gentle_lift : firm_lift) / rate.ticks_per_second) {}
 
     void run() {
         if (!any_overlaps()) {
@@ -69,7 +69,7 @@ private:
 
     bool any_overlaps() const {
         return std::any_of(scene_.contacts.begin(), scene_.contacts.end(), [this](const Contact& contact) {
-            return is_jointed(contact) && is_deeper(contact, allowed_overlap);
+            return is_jointed(contact) && is_deeper(contact, left_to_contacts);
         });
     }
 
@@ -144,8 +144,8 @@ private:
                 continue;
             }
             const std::int64_t own =
-                jointed && point.separation < -allowed_overlap
-                    ? std::min(-(point.separation + allowed_overlap) / share_a_tick, most_)
+                jointed && point.separation < -left_to_contacts
+                    ? std::min(-(point.separation + left_to_contacts) / share_a_tick, most_)
                     : -std::max<std::int64_t>(point.separation, 0);
             parted = any ? std::max(parted, own) : own;
             any = true;

@@ -22,7 +22,7 @@ struct HeldRow {
 };
 
 // Radians, World: what is turned by no more is left to rows that go in turn. An eighth of a degree.
-inline constexpr std::int64_t far_turned = (std::int64_t{1} << world_fraction_bits) / 458;
+inline constexpr std::int64_t far_turned = world_one / 458;
 
 // Of a fixed joint, or of a hinge with its limit.
 inline constexpr std::uint32_t most_held_rows = 3;

@@ -16,13 +16,12 @@ namespace {
 using namespace tree_detail;
 using fixed::Vec3;
 
-constexpr std::int64_t one = std::int64_t{1} << tree_fraction_bits;
 constexpr int point_rows = 3;
 
 // Radians, World: what is turned by more is turned back in several steps: a quarter.
 constexpr std::int64_t greatest_turn = std::int64_t{1} << (world_fraction_bits - 2);
 // What a limit may be exceeded by for that it need not push.
-constexpr std::int64_t nearly_nothing = (std::int64_t{1} << world_fraction_bits) / 1000000;
+constexpr std::int64_t nearly_nothing = world_one / 1000000;
 
 // Where masses are uneven, what turns a body by more about an axis, an eighth of a radian, is left to rows.
 constexpr std::int64_t greatest_uneven_half_turn = std::int64_t{1} << (half_turn_fraction_bits - 4);
@@ -234,9 +233,9 @@ private:
     // Of a unit push, row by row; how many.
     static int find_wrenches(const HeldJoint& held, const Vec3& lever, const Vec3 (&axes)[most_held_rows],
                              Wrench (&wrenches)[most_rows]) {
-        wrenches[0] = {{one, 0, 0}, {0, lever.z, -lever.y}};
-        wrenches[1] = {{0, one, 0}, {-lever.z, 0, lever.x}};
-        wrenches[2] = {{0, 0, one}, {lever.y, -lever.x, 0}};
+        wrenches[0] = {{tree_one, 0, 0}, {0, lever.z, -lever.y}};
+        wrenches[1] = {{0, tree_one, 0}, {-lever.z, 0, lever.x}};
+        wrenches[2] = {{0, 0, tree_one}, {lever.y, -lever.x, 0}};
         int count = point_rows;
         for_each_pushing(held, [&](int row, std::uint32_t i) {
             wrenches[row] = {{0, 0, 0}, axes[i]};

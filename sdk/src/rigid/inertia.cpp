@@ -148,7 +148,7 @@ SymmetricMatrix narrowed(const WideMatrix& m) {
     return {part(m.xx), part(m.xy), part(m.xz), part(m.yy), part(m.yz), part(m.zz)};
 }
 
-void invert(const WideMatrix& m, MassProperties& out) {
+void invert_wide(const WideMatrix& m, MassProperties& out) {
     const WideMatrix cofactor = cofactors(m);
     const std::int64_t whole = std::max<std::int64_t>(determinant(m, cofactor), 2);
     // The greatest entry comes to below one half: 2^(shift + 60) · cofactor / whole < 2^59.
@@ -207,7 +207,7 @@ MassProperties mass_properties(const BodyShape* shapes, std::uint32_t count) {
         add_shape(inertia, shapes[i], shapes[i].position - out.centre, shares[i], out.scale);
     }
     thicken(inertia);
-    invert(inertia, out);
+    invert_wide(inertia, out);
     out.inertia = narrowed(inertia);
     const SymmetricMatrix& m = out.inertia;
     out.round = m.xy == 0 && m.xz == 0 && m.yz == 0 && m.xx == m.yy && m.yy == m.zz;

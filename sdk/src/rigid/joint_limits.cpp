@@ -14,7 +14,7 @@ using fixed::Direction;
 using fixed::Vec3;
 
 // Half a degree: World, radians.
-constexpr std::int64_t far_beyond = (std::int64_t{1} << world_fraction_bits) / 115;
+constexpr std::int64_t far_beyond = world_one / 115;
 
 // How far a limit that pushes keeps off what is back within it by `gap`, where loads are far from the joint:
 // of that it gives way to a 64th a substep. If it gave way to all at once, as it does for all others, it

@@ -16,7 +16,7 @@ using fixed::Direction;
 using fixed::Vec3;
 
 // A millimetre, a hundredth, and a tenth.
-constexpr std::int64_t greatest_depth = (std::int64_t{1} << world_fraction_bits) / 1000;
+constexpr std::int64_t greatest_depth = world_one / 1000;
 constexpr std::int64_t least_overshoot = greatest_depth / 100;
 constexpr std::int64_t close_enough = greatest_depth / 10;
 

@@ -13,7 +13,7 @@ using fixed::Rotation;
 using fixed::Vec3;
 
 // What a target is beyond a limit by its own rounding: World, radians.
-constexpr std::int64_t rounding = (std::int64_t{1} << world_fraction_bits) >> 20;
+constexpr std::int64_t rounding = world_one >> 20;
 
 // The cosine of half the swing beyond which twist limits give way.
 constexpr std::int32_t least_twisted = direction_one / 32;

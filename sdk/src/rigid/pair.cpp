@@ -10,12 +10,11 @@ namespace {
 using fixed::Direction;
 using fixed::Vec3;
 
-constexpr std::int32_t one = direction_one;
 constexpr int half_turn_bits = half_turn_fraction_bits;
 // Beyond this a lever is so long against the body that the body turns as if it were heavier.
-constexpr std::int32_t greatest_weight_shift = 24;
+constexpr std::int32_t heaviest_turn_shift = 24;
 
-std::int32_t share_of(const InverseMass& part, const InverseMass& whole) {
+std::int32_t narrow_share(const InverseMass& part, const InverseMass& whole) {
     if (part.mantissa == 0) {
         return 0;
     }
@@ -26,7 +25,7 @@ std::int32_t share_of(const InverseMass& part, const InverseMass& whole) {
     }
     const std::uint64_t quotient = (std::uint64_t{part.mantissa} << 30) / whole.mantissa;
     return static_cast<std::int32_t>(
-        std::min<std::uint64_t>(fixed::shift_right_rounded(quotient, down), one));
+        std::min<std::uint64_t>(fixed::shift_right_rounded(quotient, down), direction_one));
 }
 
 Direction multiply_direction(const SymmetricMatrix& m, const Direction& v) {
@@ -45,7 +44,7 @@ Direction narrow_cross(const Direction& u, const Direction& v) {
 
 // Of a turn about an axis: Ĵ is in 1/(2^scale m)².
 std::int32_t turning_shift(const Body& body, int reach) {
-    return std::min(body.inverse_shift + 2 * (reach - body.scale), greatest_weight_shift);
+    return std::min(body.inverse_shift + 2 * (reach - body.scale), heaviest_turn_shift);
 }
 
 // share · quadratic form · 2^shift
@@ -107,7 +106,7 @@ bool heavier(const InverseMass& a, const InverseMass& b) {
 }
 
 std::int32_t share_in_greater(const InverseMass& a, const InverseMass& b) {
-    return share_of(a, heavier(a, b) ? b : a);
+    return narrow_share(a, heavier(a, b) ? b : a);
 }
 
 PairShares pair_shares(const InverseMass& a, const InverseMass& b) {
@@ -143,7 +142,7 @@ UnitLever to_unit(const Body& body, const Vec3& lever) {
     };
     const int longer = unit - body.scale;
     const int wanted = body.inverse_shift + 2 * longer;
-    const int weight_shift = std::min(wanted, greatest_weight_shift);
+    const int weight_shift = std::min(wanted, heaviest_turn_shift);
     // Ĵ is in 1/unit², the arm in units: by 2^longer more, and over 2^scale for radians; half of the angle.
     return {{part(lever.x), part(lever.y), part(lever.z)},
             weight_shift,
@@ -183,7 +182,8 @@ BlockSide block_side(const Body& body, std::int32_t share, const Vec3& lever, st
     Direction arms[3];
     Direction turns[3];
     for (int i = 0; i < 3; ++i) {
-        arms[i] = narrow_cross(unit.lever, {i == 0 ? one : 0, i == 1 ? one : 0, i == 2 ? one : 0});
+        arms[i] = narrow_cross(
+            unit.lever, {i == 0 ? direction_one : 0, i == 1 ? direction_one : 0, i == 2 ? direction_one : 0});
         turns[i] = multiply_direction(body.world_inverse, arms[i]);
     }
     int entry = 0;

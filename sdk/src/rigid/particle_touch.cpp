@@ -14,7 +14,7 @@ namespace {
 using fixed::Vec3;
 
 // Between the surfaces: half a centimetre.
-constexpr std::int64_t touching_distance = (std::int64_t{1} << world_fraction_bits) / 200;
+constexpr std::int64_t touching_distance = world_one / 200;
 
 std::int64_t distance_between(const Vec3& point, const Body& body, const BodyShape& shape) {
     const PlacedShape placed = place_shape(body, shape);

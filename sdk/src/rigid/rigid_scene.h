@@ -213,7 +213,7 @@ private:
 void forget_attachments(RigidScene& scene, std::uint32_t index, bool of_object);
 
 // What is this near is looked at, whatever its speed: two centimetres.
-inline constexpr std::int64_t near_distance = (std::int64_t{1} << world_fraction_bits) / 50;
+inline constexpr std::int64_t near_distance = world_one / 50;
 
 // How many pairs of bodies, and contacts of shapes, a tick has room for with so many slots.
 constexpr std::size_t pair_capacity(std::size_t bodies) {

@@ -204,7 +204,7 @@ private:
 
     // What particles have struck, or left, and what attachments hold, is awake.
     void wake_for_particles() {
-        constexpr std::int64_t enough = (std::int64_t{1} << world_fraction_bits) / 50;
+        constexpr std::int64_t enough = world_one / 50;
         for (Body& body : scene_.bodies) {
             if (body.struck > enough) {
                 wake(body);

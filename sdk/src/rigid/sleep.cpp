@@ -11,7 +11,7 @@ namespace {
 
 using fixed::Vec3;
 
-constexpr std::int64_t still_distance = (std::int64_t{1} << world_fraction_bits) / 100;
+constexpr std::int64_t still_distance = world_one / 100;
 // Half turns: two degrees.
 constexpr std::int64_t still_turn = turn_one / 57;
 // How many times longer than others what touches nothing has to stay, and what is squeezed on the average.
@@ -24,9 +24,9 @@ constexpr std::int64_t squeezed_depth = (std::int64_t{3} << world_fraction_bits)
 // Rest counts in fifths of a tick: of what sticks in something, and is still coming out, each tick is one.
 constexpr std::uint32_t rest_of_tick = 5;
 // Speeds of a body's fastest point; what it gains in a second, as a ball on a slope of a fifth of a degree.
-constexpr std::int64_t slow = (std::int64_t{1} << world_fraction_bits) / 10;
-constexpr std::int64_t fast = (std::int64_t{1} << world_fraction_bits) / 2;
-constexpr std::int64_t least_gain = (std::int64_t{1} << world_fraction_bits) / 20;
+constexpr std::int64_t slow = world_one / 10;
+constexpr std::int64_t fast = world_one / 2;
+constexpr std::int64_t least_gain = world_one / 20;
 
 // What joints and pushing contacts hold together.
 BodyRoots find_islands(RigidScene& scene) {

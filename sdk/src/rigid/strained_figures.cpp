@@ -55,7 +55,7 @@ void StrainedFigures::mark(std::uint32_t body) const {
 
 // What something stops that might pass it, or that it might pass, and that goes on by more than a centimetre.
 void StrainedFigures::mark_hard_impacts() const {
-    constexpr std::int64_t hard = (std::int64_t{1} << world_fraction_bits) / 100;
+    constexpr std::int64_t hard = world_one / 100;
     for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
         if (!scene_.acts(i)) {
             continue;

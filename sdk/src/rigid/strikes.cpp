@@ -15,7 +15,6 @@ namespace {
 using fixed::Direction;
 using fixed::Vec3;
 
-constexpr std::int64_t world_one = std::int64_t{1} << world_fraction_bits;
 // Of what is awake: below that the room that is always there is enough.
 constexpr std::int64_t least_awake = near_distance / 2;
 // Beside sleepers: whom they don't see stands like a wall.

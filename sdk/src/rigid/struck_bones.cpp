@@ -17,7 +17,7 @@ namespace {
 using fixed::Vec3;
 
 // No shape is thinner.
-constexpr std::int64_t least_size = (std::int64_t{1} << world_fraction_bits) / 1000;
+constexpr std::int64_t least_size = world_one / 1000;
 
 bool is_wall(const RigidScene& scene, std::uint32_t body) {
     return scene.body_slots[body].used && !scene.bodies[body].jointed;

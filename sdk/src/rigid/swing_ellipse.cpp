@@ -9,8 +9,6 @@ using fixed::Vec3;
 
 namespace {
 
-constexpr std::int64_t world_one = std::int64_t{1} << world_fraction_bits;
-
 // The first two components of a vector in a plane.
 std::int64_t length_of(std::int64_t x, std::int64_t z) {
     return static_cast<std::int64_t>(fixed::length(Vec3{x, z, 0}));

@@ -8,13 +8,12 @@ namespace {
 
 // tan(angle)/angle (World; up to 63°, to 10^-7 of it), by the continued fraction of the tangent.
 std::int64_t tangent_over_angle(std::int64_t angle) {
-    constexpr std::int64_t one = std::int64_t{1} << world_fraction_bits;
     const std::int64_t square = fixed::multiply_shift(angle, angle, world_fraction_bits);
-    std::int64_t level = 11 * one;
+    std::int64_t level = 11 * world_one;
     for (int odd = 9; odd > 0; odd -= 2) {
-        level = odd * one - fixed::multiply_divide(square, one, level);
+        level = odd * world_one - fixed::multiply_divide(square, world_one, level);
     }
-    return fixed::multiply_divide(one, one, level);
+    return fixed::multiply_divide(world_one, world_one, level);
 }
 
 // n times the half turn of one of n alike substeps, over the half turn of them all: World, of |half| (Turn).
@@ -22,8 +21,7 @@ std::int64_t in_substeps(std::uint64_t half, std::int64_t n) {
     constexpr int bits = 28;
     const std::int64_t angle = fixed::angle_of(static_cast<std::int64_t>(half >> (turn_fraction_bits - bits)),
                                                std::int64_t{1} << bits);
-    return fixed::multiply_divide(tangent_over_angle(angle / n), std::int64_t{1} << world_fraction_bits,
-                                  tangent_over_angle(angle));
+    return fixed::multiply_divide(tangent_over_angle(angle / n), world_one, tangent_over_angle(angle));
 }
 
 } // namespace

@@ -12,7 +12,7 @@ using fixed::Vec3;
 
 // As many of the greatest pushes at the longest levers are below 2^62.
 constexpr std::uint32_t greatest_tree = 64;
-constexpr int greatest_shift = 30;
+constexpr int widest_shift = 30;
 
 int turn_shift_of(const Body& body) {
     return body.inverse_shift - body.scale - 1 + half_turn_fraction_bits - world_fraction_bits;
@@ -26,7 +26,7 @@ int lever_shift_of(const Body& body) {
 }
 
 bool is_in_range(int shift) {
-    return shift >= -greatest_shift && shift <= greatest_shift;
+    return shift >= -widest_shift && shift <= widest_shift;
 }
 
 bool fits_lanes(const Body& body) {

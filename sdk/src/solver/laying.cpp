@@ -36,7 +36,7 @@ std::int64_t whole_metres_to_middle(std::int64_t origin, std::int64_t low, std::
 // Of pins, those of vertices that stay.
 std::uint64_t move_origin(Object& object, const Laid& laid, int axis, std::int64_t& origin,
                           std::int64_t metres) {
-    origin = wrapping_add(origin, wrapping_multiply(metres, std::int64_t{1} << world_fraction_bits));
+    origin = wrapping_add(origin, wrapping_multiply(metres, world_one));
     // Wraps with what wraps: what stays is in range again.
     const std::int64_t shift = wrapping_multiply(metres, coordinate_one);
     for (std::uint32_t i = 0; i < object.count(); ++i) {

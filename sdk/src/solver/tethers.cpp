@@ -12,7 +12,7 @@ namespace {
 
 // 24 fraction bits: 256 times a tether's length at most.
 constexpr int scale_bits = 24;
-constexpr std::uint32_t scale_one = std::uint32_t{1} << scale_bits;
+constexpr std::uint32_t tether_scale_one = std::uint32_t{1} << scale_bits;
 
 // Two pins that are further apart than the cloth between them is long stretch it all alike: else the tether
 // that comes last would get its length, and what is missing would open next to the other pin.
@@ -87,7 +87,7 @@ private:
     // mass at one end.
     void pull(std::uint32_t particle, const Difference& wide, std::uint32_t length,
               const TetherAnchor& anchor) {
-        if (anchor.scale != scale_one) {
+        if (anchor.scale != tether_scale_one) {
             const std::uint64_t scaled = (std::uint64_t{length} * anchor.scale) >> scale_bits;
             length = static_cast<std::uint32_t>(std::min<std::uint64_t>(scaled + 1, no_tether));
         }
@@ -152,7 +152,7 @@ bool place_tether_anchors(const Object& object, TetherAnchor* anchors) {
     for (std::size_t i = 0; i < tethers.anchors.size(); ++i) {
         const std::uint32_t particle = tethers.anchors[i];
         const bool active = object.pinned().contains(particle);
-        anchors[i] = {object.position(particle), object.start(particle), active, scale_one};
+        anchors[i] = {object.position(particle), object.start(particle), active, tether_scale_one};
         any = any || active;
     }
     if (any) {
