@@ -23,7 +23,7 @@ quietly() {  # the output of what succeeds is of no interest
 mkdir -p "$build"
 quietly cmake -S "$source" -B "$build" -G Ninja -DLOCKSTITCH_RENDER=OFF -DLOCKSTITCH_BENCH=OFF \
     -DLOCKSTITCH_INSTALL=OFF -DLOCKSTITCH_NESTED_BUILDS=OFF -DLOCKSTITCH_PORTABILITY=OFF \
-    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON "${arguments[@]}"
+    "${arguments[@]}"
 # Word splitting is meant: several targets.
 quietly cmake --build "$build" --parallel "$jobs" --target $targets
 # Exhaustive sweeps are for the native build: under an emulator or a sanitizer they would take hours. What
