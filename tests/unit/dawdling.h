@@ -35,17 +35,17 @@ inline const Kernels& prompt() {
 // All kernels of a table. One that is new does not compile here until it is among them.
 constexpr auto all_of(auto& kernels) {
     auto& [level, side_by_side, constraints_a_block, project_distances, predict, ranges, greatest_gap,
-           near_box, near_plane, respond, beyond_tether, chain, trees, contact_points, rows, hash_update] =
-        kernels;
+           near_box, near_plane, respond, beyond_tether, chain, trees, contact_points, rows, hash_update,
+           sum_stripes] = kernels;
     auto& [plane, sphere, capsule, box] = respond;
     auto& [measure, stretch, turn, divide, solve, push, stiffen, share, cross] = chain;
     auto& [factor_trees, solve_trees] = trees;
     auto& [begin_points, make_rows, measure_points] = contact_points;
     auto& [take, give_back] = rows;
     return std::tie(project_distances, predict, ranges, greatest_gap, near_box, near_plane, beyond_tether,
-                    hash_update, plane, sphere, capsule, box, measure, stretch, turn, divide, solve, push,
-                    stiffen, share, cross, factor_trees, solve_trees, begin_points, make_rows, measure_points,
-                    take, give_back);
+                    hash_update, sum_stripes, plane, sphere, capsule, box, measure, stretch, turn, divide,
+                    solve, push, stiffen, share, cross, factor_trees, solve_trees, begin_points, make_rows,
+                    measure_points, take, give_back);
 }
 
 // The kernel of this number, neither begun nor ended on time.

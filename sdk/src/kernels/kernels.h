@@ -9,6 +9,7 @@
 #include "kernels/contact_task.h"
 #include "kernels/coordinate_range.h"
 #include "kernels/distance_task.h"
+#include "kernels/lane_sums.h"
 #include "kernels/prediction_task.h"
 #include "kernels/response_task.h"
 #include "kernels/row_task.h"
@@ -41,6 +42,8 @@ struct Kernels {
     RowKernels rows; // null where project_distances takes no rows
     // XXH3_64bits_update.
     void (*hash_update)(void* state, const void* bytes, std::size_t size);
+    // Adds what `bytes`, aligned to 8, come to.
+    void (*sum_stripes)(LaneSums& sums, const unsigned char* bytes, std::size_t stripes);
 };
 
 // Null where this build or this CPU has not got the level. LKS_SIMD_AUTO: the best there is, or what the

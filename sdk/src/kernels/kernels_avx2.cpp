@@ -7,6 +7,7 @@
 #include "kernels/contact_point_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
+#include "kernels/lane_sums_lanes.h"
 #include "kernels/lanes_avx2.h"
 #include "kernels/leave_lanes.h"
 #include "kernels/prediction_lanes.h"
@@ -33,7 +34,8 @@ constinit const Kernels kernels_avx2{LKS_SIMD_AVX2,
                                      leaving_tree_lanes<LanesAvx2>(),
                                      leaving_contact_point_lanes<LanesAvx2>(),
                                      leaving_row_lanes<LanesAvx2>(),
-                                     leaving<LanesAvx2, hash_update>};
+                                     leaving<LanesAvx2, hash_update>,
+                                     leaving<LanesAvx2, sum_stripes_lanes<LanesAvx2>>};
 
 } // namespace lks
 

@@ -12,6 +12,7 @@
 #include "kernels/contact_point_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
+#include "kernels/lane_sums_lanes.h"
 #include "kernels/lanes_avx2.h"
 #include "kernels/lanes_avx512.h"
 #include "kernels/leave_lanes.h"
@@ -51,7 +52,8 @@ constinit const Kernels kernels_avx512{LKS_SIMD_AVX512,
                                        leaving_tree_lanes<LanesAvx512>(),
                                        leaving_contact_point_lanes<LanesAvx512>(),
                                        leaving_row_lanes<LanesAvx512, LanesAvx2>(),
-                                       leaving<LanesAvx512, hash_update>};
+                                       leaving<LanesAvx512, hash_update>,
+                                       leaving<LanesAvx512, sum_stripes_lanes<LanesAvx512>>};
 
 } // namespace lks
 

@@ -6,6 +6,7 @@
 #include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
+#include "kernels/lane_sums_lanes.h"
 #include "kernels/lanes_neon.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/range_lanes.h"
@@ -29,7 +30,8 @@ constinit const Kernels kernels_neon{LKS_SIMD_NEON,
                                      no_tree_kernels,
                                      no_contact_point_kernels,
                                      no_row_kernels,
-                                     hash_update};
+                                     hash_update,
+                                     sum_stripes_lanes<LanesNeon>};
 
 } // namespace lks
 

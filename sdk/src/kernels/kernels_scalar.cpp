@@ -3,6 +3,7 @@
 #include "kernels/contact_scalar.h"
 #include "kernels/distance_scalar_loop.h"
 #include "kernels/hash_update.h"
+#include "kernels/lane_sums_scalar.h"
 #include "kernels/lanes_plain.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/tether_scalar.h"
@@ -24,6 +25,7 @@ constinit const Kernels kernels_scalar{LKS_SIMD_SCALAR,
                                        no_tree_kernels,
                                        no_contact_point_kernels,
                                        no_row_kernels,
-                                       hash_update};
+                                       hash_update,
+                                       sum_stripes_scalar};
 
 } // namespace lks

@@ -6,6 +6,7 @@
 #include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
+#include "kernels/lane_sums_lanes.h"
 #include "kernels/lanes_sse41.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/range_lanes.h"
@@ -29,7 +30,8 @@ constinit const Kernels kernels_sse41{LKS_SIMD_SSE41,
                                       no_tree_kernels,
                                       no_contact_point_kernels,
                                       no_row_kernels,
-                                      hash_update};
+                                      hash_update,
+                                      sum_stripes_lanes<LanesSse41>};
 
 } // namespace lks
 

@@ -6,6 +6,7 @@
 #include "kernels/contact_lanes.h"
 #include "kernels/distance_lanes.h"
 #include "kernels/hash_update.h"
+#include "kernels/lane_sums_lanes.h"
 #include "kernels/lanes_wasm.h"
 #include "kernels/prediction_lanes.h"
 #include "kernels/range_lanes.h"
@@ -30,7 +31,8 @@ constinit const Kernels kernels_wasm{LKS_SIMD_WASM,
                                      no_tree_kernels,
                                      no_contact_point_kernels,
                                      no_row_kernels,
-                                     hash_update};
+                                     hash_update,
+                                     sum_stripes_lanes<LanesWasm>};
 
 } // namespace lks
 

@@ -1,7 +1,8 @@
 // Bytes of an image, little-endian, and their checksum.
 #pragma once
 
-#include "state/hash.h"
+#include "state/bytes.h"
+#include "state/checksum.h"
 
 namespace lks {
 
@@ -10,7 +11,7 @@ namespace lks {
 class ByteWriter {
 public:
     explicit ByteWriter(unsigned char* at) : at_(at), summed_(at) {}
-    ByteWriter(unsigned char* at, Hash& checksum) : at_(at), summed_(at), checksum_(&checksum) {}
+    ByteWriter(unsigned char* at, Checksum& checksum) : at_(at), summed_(at), checksum_(&checksum) {}
 
     void u32(std::uint32_t value) { integer(value); }
     void u64(std::uint64_t value) { integer(value); }
@@ -38,13 +39,8 @@ public:
         }
     }
 
-    // The checksum is of all that has been written.
-    void finish() {
-        if (checksum_ != nullptr) {
-            checksum_->add_bytes(summed_, behind());
-            summed_ = at_;
-        }
-    }
+    // Of all that has been written, where there is a checksum.
+    std::uint64_t checksum() { return checksum_->finish(summed_, behind()); }
 
 private:
     static constexpr std::size_t distance = 4096;
@@ -54,8 +50,8 @@ private:
     void copy(const unsigned char* from, std::size_t size) {
         std::memcpy(at_, from, size);
         at_ += size;
-        if (behind() >= distance) {
-            finish();
+        if (checksum_ != nullptr && behind() >= distance) {
+            summed_ += checksum_->add(summed_, behind());
         }
     }
 
@@ -73,7 +69,7 @@ private:
 
     unsigned char* at_;
     unsigned char* summed_; // up to here
-    Hash* checksum_ = nullptr;
+    Checksum* checksum_ = nullptr;
 };
 
 } // namespace lks

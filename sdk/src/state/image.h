@@ -6,8 +6,8 @@
 //     bodies, joints, contacts  state/rigid_image.h
 //     attachments               state/attachment_image.h
 //
-// Every part is a multiple of 8 bytes. The checksum (XXH3) covers everything behind it. An object is its
-// settings, its pins, and its six arrays as they stand in memory.
+// Every part is a multiple of 8 bytes. The checksum (state/checksum.h) covers everything behind it. An object
+// is its settings, its pins, and its six arrays as they stand in memory.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 namespace lks {
 
 inline constexpr std::uint64_t image_magic = 0x3165746174736b4c; // "Lkstate1" as bytes
-inline constexpr std::uint32_t image_version = 7;
+inline constexpr std::uint32_t image_version = 8;
 
 struct ImageHeader {
     std::uint64_t magic;

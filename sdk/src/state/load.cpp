@@ -96,9 +96,9 @@ lks_result check_header(const lks_world& world, const ImageHeader& header, const
         return corrupt(world, Sentence() << "The image says that it has " << header.size << " bytes, but "
                                          << static_cast<std::uint64_t>(size) << " were given.");
     }
-    Hash checksum(*world.kernels);
-    checksum.add_bytes(memory + image_checked_from, size - image_checked_from);
-    if (const std::uint64_t found = checksum.finish(); found != header.checksum) {
+    const std::uint64_t found =
+        Checksum(*world.kernels).finish(memory + image_checked_from, size - image_checked_from);
+    if (found != header.checksum) {
         return corrupt(world,
                        ((Sentence() << "The image's checksum is ").hexadecimal(found) << " instead of ")
                                .hexadecimal(header.checksum)

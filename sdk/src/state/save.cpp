@@ -54,7 +54,7 @@ std::size_t image_size(const lks_world& world) {
 
 void write_image(const lks_world& world, unsigned char* memory) {
     const std::size_t size = image_size(world);
-    Hash checksum(*world.kernels);
+    Checksum checksum(*world.kernels);
     ByteWriter out(memory + image_checked_from, checksum);
     Writing writing(out);
     out.u32(world.rate.ticks_per_second);
@@ -86,13 +86,12 @@ void write_image(const lks_world& world, unsigned char* memory) {
     }
     write_rigid(out, world.rigid);
     write_attachments(out, world.rigid);
-    out.finish();
     ByteWriter front(memory);
     front.u64(image_magic);
     front.u32(image_version);
     front.u32(LKS_SOLVER_VERSION);
     front.u64(size);
-    front.u64(checksum.finish());
+    front.u64(out.checksum());
 }
 
 } // namespace lks
