@@ -6,12 +6,18 @@
 
 #include "support/bodies.h"
 #include "support/builders.h"
+#include "support/sanitised.h"
 #include "support/scene.h"
 #include "support/task_system.h"
 
 using namespace support;
 
 namespace {
+
+// Beside one. A sanitizer, which watches each access, sees in three what it sees in four to seven.
+std::vector<std::uint32_t> worker_counts() {
+    return sanitised ? std::vector<std::uint32_t>{2, 3, 8} : std::vector<std::uint32_t>{2, 3, 4, 5, 6, 7, 8};
+}
 
 // A cloth that is large enough for blocks of its phases, thrown over colliders, and a crowd of small things.
 struct Crowd {
@@ -111,7 +117,7 @@ TEST_CASE("one to eight workers of the world's own give the same hashes and coun
     const Crowd crowd;
     const std::vector<std::uint64_t> expected = crowd.hashes(crowd_def(1), ticks);
     CHECK(expected[ticks] + expected[ticks + 1] > 0);
-    for (std::uint32_t workers = 2; workers <= 8; ++workers) {
+    for (const std::uint32_t workers : worker_counts()) {
         CAPTURE(workers);
         CHECK(crowd.hashes(crowd_def(workers), ticks) == expected);
     }
@@ -152,7 +158,7 @@ TEST_CASE("a small world asks nobody for help") {
 
 TEST_CASE("a crowd of ragdolls gives the same hashes on one to eight workers, and on a game's") {
     const std::vector<std::uint64_t> expected = ragdoll_hashes(crowd_def(1));
-    for (std::uint32_t workers = 2; workers <= 8; ++workers) {
+    for (const std::uint32_t workers : worker_counts()) {
         CAPTURE(workers);
         CHECK(ragdoll_hashes(crowd_def(workers)) == expected);
     }
