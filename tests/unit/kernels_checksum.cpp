@@ -51,13 +51,15 @@ TEST_CASE("kernels: every instruction set sums an image as the definition does")
         INFO(std::string(simd_name(kernels->level)));
         std::uint64_t different = 0;
         for (int i = 0; i < 2000; ++i) {
-            const std::size_t first = 8 * random.below(64);
-            const std::size_t size = std::min<std::size_t>(random.any_magnitude(15), bytes.size() - first);
+            const auto first = static_cast<std::size_t>(8 * random.below(64));
+            const auto size = static_cast<std::size_t>(
+                std::min<std::uint64_t>(random.any_magnitude(15), bytes.size() - first));
             const unsigned char* const at = bytes.data() + first;
             Checksum checksum(*kernels);
             std::size_t added = 0;
             for (std::size_t given = 0; given < size;) {
-                given = std::min<std::size_t>(size, given + 1 + random.any_magnitude(12));
+                given = static_cast<std::size_t>(
+                    std::min<std::uint64_t>(size, given + 1 + random.any_magnitude(12)));
                 added += checksum.add(at + added, given - added);
             }
             const std::uint64_t sum = checksum.finish(at + added, size - added);
@@ -94,13 +96,13 @@ TEST_CASE(
     test::Random random(33);
     Bytes bytes = of_a_state(random, 515);
     const std::uint64_t right = bytes.checksum(best());
+    const auto below = [&random](std::size_t n) { return static_cast<std::size_t>(random.below(n)); };
     std::uint64_t unseen = 0;
     // In one lane, as words in different ones are summed apart.
     for (std::size_t a = 0; a < bytes.words.size(); ++a) {
         for (std::size_t b = a + 8; b < bytes.words.size(); b += 8) {
-            for (const std::size_t bit : {std::size_t{63}, std::size_t{63 - random.below(8)},
-                                          static_cast<std::size_t>(random.below(64))}) {
-                const std::size_t other = random.below(4) == 0 ? random.below(64) : bit;
+            for (const std::size_t bit : {std::size_t{63}, 63 - below(8), below(64)}) {
+                const std::size_t other = below(4) == 0 ? below(64) : bit;
                 bytes.flip(64 * a + bit);
                 bytes.flip(64 * b + other);
                 unseen += bytes.checksum(best()) == right ? 1 : 0;
@@ -110,8 +112,8 @@ TEST_CASE(
         }
     }
     for (int i = 0; i < 20'000; ++i) {
-        std::uint64_t& a = bytes.words[random.below(bytes.words.size())];
-        std::uint64_t& b = bytes.words[random.below(bytes.words.size())];
+        std::uint64_t& a = bytes.words[below(bytes.words.size())];
+        std::uint64_t& b = bytes.words[below(bytes.words.size())];
         if (a != b) {
             std::swap(a, b);
             unseen += bytes.checksum(best()) == right ? 1 : 0;
