@@ -9,12 +9,12 @@ usage: ./test.sh [--portability] [--long] [-- CTEST-OPTIONS...]
 
 Installs what is missing, builds into build/ and runs all tests: the SDK's own, the golden states and images,
 programs outside the tree that link the installed library, and the checks of the sources. Two cores take eight
-to 20 minutes.
+to 17 minutes.
 
   --portability  also clang, g++ without SIMD or floating-point registers, with -O0 and with -ffast-math,
                  address, undefined-behaviour and thread sanitizers, every scene on one to eight threads, and
                  the golden states on aarch64, 32-bit arm, s390x, Windows and WebAssembly, under qemu-user,
-                 wine and node: 45 to 80 minutes
+                 wine and node: 35 to 65 minutes
   --long         also the exhaustive sweeps, and with --portability g++ and clang at every -O, clang with
                  -ffast-math, g++ without SIMD, WebAssembly without SIMD, and as many samples of the wide
                  kernels under node and wine as here (under qemu as many as here without --long)
