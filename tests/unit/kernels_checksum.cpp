@@ -38,8 +38,10 @@ Bytes of_a_state(test::Random& random, std::size_t count) {
     return bytes;
 }
 
+// Looked for once, as wide_kernels() are.
 const Kernels& best() {
-    return *find_kernels(LKS_SIMD_AUTO);
+    static const Kernels& kernels = *find_kernels(LKS_SIMD_AUTO);
+    return kernels;
 }
 
 } // namespace
