@@ -11,6 +11,7 @@
 
 #include "kernels/kernels.h"
 #include "unit/fixed_samples.h"
+#include "unit/wide_kernels.h"
 
 namespace lks::test {
 
@@ -25,11 +26,6 @@ inline void dawdle() {
     } else if (mood < 26) {
         std::this_thread::yield();
     }
-}
-
-inline const Kernels& prompt() {
-    static const Kernels& kernels = *find_kernels(LKS_SIMD_AUTO);
-    return kernels;
 }
 
 // All kernels of a table. One that is new does not compile here until it is among them.
@@ -56,7 +52,7 @@ Result call_late(Arguments... arguments) {
         ~Naps() { dawdle(); }
     };
     const Naps around;
-    return std::get<number>(all_of(prompt()))(arguments...);
+    return std::get<number>(all_of(best_kernels()))(arguments...);
 }
 
 template <std::size_t number, typename Result, typename... Arguments>
@@ -78,7 +74,7 @@ void make_all_late(Kernels& kernels, std::index_sequence<numbers...>) {
 // The kernels of this machine, none of which starts or ends on time.
 inline const Kernels& dawdling() {
     static const Kernels kernels = [] {
-        Kernels late = prompt();
+        Kernels late = best_kernels();
         late.constraints_a_block = 1024; // whatever this machine makes of it: there are blocks to steal
         make_all_late(late, std::make_index_sequence<std::tuple_size_v<decltype(all_of(late))>>());
         return late;

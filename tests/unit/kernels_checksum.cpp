@@ -38,12 +38,6 @@ Bytes of_a_state(test::Random& random, std::size_t count) {
     return bytes;
 }
 
-// Looked for once, as wide_kernels() are.
-const Kernels& best() {
-    static const Kernels& kernels = *find_kernels(LKS_SIMD_AUTO);
-    return kernels;
-}
-
 } // namespace
 
 TEST_CASE("kernels: every instruction set sums an image as the definition does") {
@@ -74,30 +68,30 @@ TEST_CASE("kernels: every instruction set sums an image as the definition does")
 TEST_CASE("any bit of an image that flips changes the checksum, and so does any other byte") {
     test::Random random(32);
     Bytes bytes = of_a_state(random, 515);
-    const std::uint64_t right = bytes.checksum(best());
+    const std::uint64_t right = bytes.checksum(test::best_kernels());
     std::uint64_t unseen = 0;
     for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
         bytes.flip(bit);
-        unseen += bytes.checksum(best()) == right ? 1 : 0;
+        unseen += bytes.checksum(test::best_kernels()) == right ? 1 : 0;
         bytes.flip(bit);
     }
     for (std::size_t at = 0; at < bytes.size(); ++at) {
         const unsigned char was = bytes.data()[at];
         for (int other = 0; other < 256; ++other) {
             bytes.data()[at] = static_cast<unsigned char>(other);
-            unseen += other != was && bytes.checksum(best()) == right ? 1 : 0;
+            unseen += other != was && bytes.checksum(test::best_kernels()) == right ? 1 : 0;
         }
         bytes.data()[at] = was;
     }
     CHECK(unseen == 0);
-    CHECK(bytes.checksum(best()) == right);
+    CHECK(bytes.checksum(test::best_kernels()) == right);
 }
 
 TEST_CASE(
     "two bits that flip change the checksum, most of all two signs, and so do words that change places") {
     test::Random random(33);
     Bytes bytes = of_a_state(random, 515);
-    const std::uint64_t right = bytes.checksum(best());
+    const std::uint64_t right = bytes.checksum(test::best_kernels());
     const auto below = [&random](std::size_t n) { return static_cast<std::size_t>(random.below(n)); };
     std::uint64_t unseen = 0;
     // In one lane, as words in different ones are summed apart.
@@ -107,7 +101,7 @@ TEST_CASE(
                 const std::size_t other = below(4) == 0 ? below(64) : bit;
                 bytes.flip(64 * a + bit);
                 bytes.flip(64 * b + other);
-                unseen += bytes.checksum(best()) == right ? 1 : 0;
+                unseen += bytes.checksum(test::best_kernels()) == right ? 1 : 0;
                 bytes.flip(64 * a + bit);
                 bytes.flip(64 * b + other);
             }
@@ -118,12 +112,12 @@ TEST_CASE(
         std::uint64_t& b = bytes.words[below(bytes.words.size())];
         if (a != b) {
             std::swap(a, b);
-            unseen += bytes.checksum(best()) == right ? 1 : 0;
+            unseen += bytes.checksum(test::best_kernels()) == right ? 1 : 0;
             std::swap(a, b);
         }
     }
     CHECK(unseen == 0);
-    CHECK(bytes.checksum(best()) == right);
+    CHECK(bytes.checksum(test::best_kernels()) == right);
 }
 
 TEST_CASE("zeros at the end, ends that are cut off and bytes that moved on change the checksum") {
@@ -132,10 +126,10 @@ TEST_CASE("zeros at the end, ends that are cut off and bytes that moved on chang
     std::fill(bytes.words.end() - 40, bytes.words.end(), 0);
     std::vector<std::uint64_t> seen;
     for (std::size_t size = 0; size <= bytes.size(); ++size) {
-        seen.push_back(Checksum(best()).finish(bytes.data(), size));
+        seen.push_back(Checksum(test::best_kernels()).finish(bytes.data(), size));
     }
     for (std::size_t first = 8; first < bytes.size() - 320; first += 8) {
-        seen.push_back(Checksum(best()).finish(bytes.data() + first, bytes.size() - first));
+        seen.push_back(Checksum(test::best_kernels()).finish(bytes.data() + first, bytes.size() - first));
     }
     std::sort(seen.begin(), seen.end());
     CHECK(std::adjacent_find(seen.begin(), seen.end()) == seen.end());

@@ -31,4 +31,10 @@ inline std::vector<const Kernels*> all_kernels() {
     return all;
 }
 
+// What a world takes, looked for once.
+inline const Kernels& best_kernels() {
+    static const Kernels& kernels = *find_kernels(LKS_SIMD_AUTO);
+    return kernels;
+}
+
 } // namespace lks::test

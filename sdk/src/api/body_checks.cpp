@@ -1,6 +1,7 @@
 #include "api/body_checks.h"
 
 #include "api/collider_checks.h"
+#include "collide/shape.h"
 #include "rigid/body_motion.h"
 #include "rigid/make_body.h"
 

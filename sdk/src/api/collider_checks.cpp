@@ -1,5 +1,6 @@
 #include "api/collider_checks.h"
 
+#include "collide/shape.h"
 #include "solver/wrapping.h"
 
 namespace lks {

@@ -5,10 +5,6 @@
 
 namespace lks {
 
-// Radii, half lengths and half extents.
-inline constexpr lks_fixed least_shape_size = LKS_FIXED_RATIO(1, 1000);
-inline constexpr lks_fixed greatest_shape_size = LKS_FIXED(30);
-
 lks_result check_collider_def(const lks_world& world, const lks_collider_def& def);
 // A kinematic motion of at most 100 m and 90° in one tick.
 lks_result check_motion(const lks_world& world, const ColliderState& collider, const fixed::Vec3& position,

@@ -21,6 +21,10 @@
 
 namespace lks {
 
+// Of radii, half lengths and half extents, in World format.
+inline constexpr std::int64_t least_shape_size = world_one / 1000;
+inline constexpr std::int64_t greatest_shape_size = world_one * 30;
+
 struct Shape {
     std::uint32_t kind; // lks_shape_kind
     std::int64_t radius;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/lane_sums.h"
-#include "state/bytes.h"
+#include "memory/bytes.h"
 
 namespace lks {
 namespace {

@@ -18,7 +18,7 @@ constexpr int sum_fraction_bits = 2 * world_fraction_bits;
 constexpr int share_fraction_bits = 30;
 constexpr int energy_fraction_bits = 64;
 
-Sum3 weighed(const Vec3& v, std::int64_t share) {
+Sum3 exact_share(const Vec3& v, std::int64_t share) {
     return {fixed::multiply_signed(v.x, share), fixed::multiply_signed(v.y, share),
             fixed::multiply_signed(v.z, share)};
 }
@@ -92,7 +92,7 @@ Vec3 own_momentum(const MassProperties& properties, const Body& body) {
 }
 
 Sum3 spin_momentum(const Vec3& own, const MassProperties& properties, std::int64_t share) {
-    const Sum3 sum = weighed(own, share);
+    const Sum3 sum = exact_share(own, share);
     const int up = sum_fraction_bits - world_fraction_bits - share_fraction_bits + 2 * properties.scale;
     return {scaled(sum.x, up), scaled(sum.y, up), scaled(sum.z, up)};
 }
@@ -225,8 +225,8 @@ FigureMomentum::FigureMomentum(const RigidScene& scene, const FigureRange& figur
     Sum3 position, velocity;
     std::uint64_t masses = 0;
     for_each_body(scene, figure, [&](std::uint32_t, const Body& body, std::int64_t share) {
-        position = position + weighed(saturating_subtract(body.position, first.position), share);
-        velocity = velocity + weighed(body.velocity - first.velocity, share);
+        position = position + exact_share(saturating_subtract(body.position, first.position), share);
+        velocity = velocity + exact_share(body.velocity - first.velocity, share);
         masses += static_cast<std::uint64_t>(share);
     });
     position_ = saturating_add(first.position, mean(position, masses));
@@ -309,8 +309,8 @@ Int128 work_of_gravity(const RigidScene& scene, const FigureRange& figure, const
         const Vec3 predicted = saturating_subtract(body.velocity, times_rate(moved_by, rate));
         const Vec3& gravity = scene.ticks[i].gravity_step;
         sum = sum + weighed(work(gravity, predicted), share);
-        moved = moved + weighed(predicted, share);
-        pull = pull + weighed(gravity, share);
+        moved = moved + exact_share(predicted, share);
+        pull = pull + exact_share(gravity, share);
         masses += static_cast<std::uint64_t>(share);
     });
     return sum - weighed(work(mean(pull, masses), mean(moved, masses)), static_cast<std::int64_t>(masses));

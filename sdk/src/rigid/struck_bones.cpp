@@ -16,9 +16,6 @@ namespace {
 
 using fixed::Vec3;
 
-// No shape is thinner.
-constexpr std::int64_t least_size = world_one / 1000;
-
 bool is_wall(const RigidScene& scene, std::uint32_t body) {
     return scene.body_slots[body].used && !scene.bodies[body].jointed;
 }
@@ -163,7 +160,7 @@ void find_thinnest_wall(lks_world& world) {
     }
     // Two that meet close by both their ways, and what is struck goes off by twice that at most.
     const std::int64_t farthest = saturating_double(saturating_double(greatest_way(world)));
-    if (farthest <= least_size) {
+    if (farthest <= least_shape_size) {
         return;
     }
     const auto look = [&](std::int64_t thickness) {

@@ -1,7 +1,7 @@
 // Bytes of an image, little-endian, and their checksum.
 #pragma once
 
-#include "state/bytes.h"
+#include "memory/bytes.h"
 #include "state/checksum.h"
 
 namespace lks {

@@ -8,7 +8,7 @@
 
 #include "kernels/hash_update.h"
 #include "kernels/kernels.h"
-#include "state/bytes.h"
+#include "memory/bytes.h"
 
 namespace lks {
 

@@ -2,7 +2,7 @@
 // fields are one word, the first of them its low half.
 #pragma once
 
-#include "state/bytes.h"
+#include "memory/bytes.h"
 
 namespace lks {
 
