@@ -208,10 +208,9 @@ TEST_CASE("a particle that strikes a figure at its limit gives it its momentum")
     CHECK(arm.swing(0) > 35); // 3 were particles not known
 }
 
-// By a hand, without weight. One of its joints is soft, so that all are swept one by one. Of 96 others at 8
-// substeps nine gain more than twice what they have, the worst 30 times it: an arm that whips straight
-// decides.
-TEST_CASE("a held figure with a soft joint gains next to nothing, as a rule") {
+// By a hand, without weight. While soft points were swept beside the trees of the rigid ones, nine of 96 at 8
+// substeps had more than twice what they began with, the worst 30 times.
+TEST_CASE("a held figure with a soft joint gains next to nothing") {
     for (const std::uint32_t substeps : {8u, 20u}) {
         for (const double compliance : {1e-5, 1e-4}) {
             double worst = 0;
@@ -254,8 +253,8 @@ TEST_CASE("a held figure with a soft joint gains next to nothing, as a rule") {
             }
             CAPTURE(substeps);
             CAPTURE(compliance);
-            CHECK(gaining <= 2);
-            CHECK(worst < 60); // hundreds to thousands, when nobody looked
+            CHECK(gaining == 0);
+            CHECK(worst < 1.2); // hundreds to thousands, when nobody looked
         }
     }
 }

@@ -40,8 +40,7 @@ public:
         std::vector<Scalar> errors;
         for (const std::size_t i : tree.joints) {
             Joint& joint = joints_[i];
-            const Vec offset = joint.offset(bodies_[joint.a], bodies_[joint.b]);
-            const Vec error = in_substep ? offset - joint.start : offset;
+            const Vec error = points_.error_of(joint, in_substep);
             errors.insert(errors.end(), {error.x, error.y, error.z});
             const std::size_t first = rows.size();
             joint.add_rows(bodies_[joint.a], bodies_[joint.b], in_substep, rows);
@@ -55,7 +54,8 @@ public:
         for (const HeldRow<Scalar>& row : rows) {
             errors.push_back(row.error);
         }
-        const std::vector<Scalar> pushes = solve_held(motions_of(tree, rows, points), errors, points, rows);
+        const std::vector<Scalar> pushes =
+            solve_held(motions_of(tree, rows, points, in_substep), errors, points, rows);
         points_.clear_pushes(tree);
         for (std::size_t k = 0; k < tree.joints.size(); ++k) {
             Joint& joint = joints_[tree.joints[k]];
@@ -102,9 +102,10 @@ private:
         points_.for_each_body(tree, [](Body& body) { body.stiffen(); });
     }
 
-    // How all rows move by pushes in each of them; those of turns a millionth softer.
+    // How all rows move by pushes in each of them; those of turns a millionth softer, and in a substep those
+    // of soft points by what they give.
     std::vector<Scalar> motions_of(const Tree& tree, const std::vector<HeldRow<Scalar>>& rows,
-                                   std::size_t points) {
+                                   std::size_t points, bool in_substep) {
         const std::size_t size = points + rows.size();
         std::vector<Scalar> matrix(size * size);
         for (std::size_t column = 0; column < size; ++column) {
@@ -121,7 +122,10 @@ private:
                                              static_cast<int>(row % 3))
                                  : turn_motion(rows[row - points]);
             }
-            if (column >= points) {
+            if (column < points) {
+                matrix[column * size + column] +=
+                    in_substep ? joints_[tree.joints[column / 3]].points_give() : Scalar(0);
+            } else {
                 const HeldRow<Scalar>& row = rows[column - points];
                 const Joint& joint = joints_[row.joint];
                 const Vec own =

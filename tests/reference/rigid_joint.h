@@ -1,6 +1,6 @@
 // A joint of the rigid reference solver: where its points are, what it does not let turn, and its limits. The
-// points of trees are brought together by the solver, all joints at once; those of soft joints, and of those
-// that close loops, by a block each. Soft ones and distances begin each substep from nothing, as XPBD has
+// points of trees are brought together by the solver, all joints at once; those of joints that close loops,
+// or have soft turns, by a block each. Soft ones and distances begin each substep from nothing, as XPBD has
 // them.
 #pragma once
 
@@ -42,7 +42,8 @@ public:
 
     // Turns without any resistance, but for limits.
     bool turns_freely() const {
-        return (kind_ == LKS_JOINT_BALL || kind_ == LKS_JOINT_HINGE) && in_tree && !drive_.resists();
+        return (kind_ == LKS_JOINT_BALL || kind_ == LKS_JOINT_HINGE) && in_tree && !has_soft_points() &&
+               !drive_.resists();
     }
     bool is_hinge() const { return kind_ == LKS_JOINT_HINGE; }
     Vec axis_of(const Body& body, bool is_a) const {
@@ -71,7 +72,17 @@ public:
         drive_.begin(body_a, body_b);
     }
 
-    // From substep to substep. Trees are of those that do.
+    // Trees are of these.
+    bool may_be_in_tree() const { return !is_distance() && !turn_softness_.is_soft(); }
+    bool has_soft_points() const { return points_softness_.is_soft(); }
+    Scalar points_give() const { return points_softness_.added; } // by a push of one
+    // What a tree's solve is to bring to zero in a substep.
+    Vec left_of_points(const Body& body_a, const Body& body_b) const {
+        const Vec apart = offset(body_a, body_b);
+        return has_soft_points() ? points_softness_.left(apart, apart - begin_, push) : apart - start;
+    }
+
+    // From substep to substep.
     bool keeps_push() const {
         return !is_distance() && !points_softness_.is_soft() && !turn_softness_.is_soft();
     }
@@ -258,7 +269,7 @@ private:
     }
 
     // Of a soft joint, whose points begin from nothing: what its friction carries on turns about the joint.
-    bool drives_before_points() const { return drive_.acts() && !keeps_push() && !is_distance(); }
+    bool drives_before_points() const { return drive_.acts() && !keeps_push() && !is_distance() && !in_tree; }
     void push_drive_with_points(Body& body_a, Body& body_b) {
         BodyMove<Scalar> move_a{{}, body_a.world_inverse * drive_.pushed() * Scalar(-1)};
         BodyMove<Scalar> move_b{{}, body_b.world_inverse * drive_.pushed()};

@@ -1,5 +1,5 @@
-// The points of one joint by a block of its own, in the rigid reference solver: of soft joints and of those
-// that close loops, whose points no tree solves.
+// The points of one joint by a block of its own, in the rigid reference solver: of those that close loops, or
+// have soft turns, whose points no tree solves.
 #pragma once
 
 #include <utility>

@@ -18,6 +18,7 @@ template <typename Scalar>
 struct JointTree {
     std::vector<std::size_t> joints;
     bool held = false;              // by one that does not move
+    bool springs = false;           // in the points of some
     SymmetricSystem<Scalar> points; // at the predicted pose
 };
 
@@ -32,17 +33,17 @@ public:
 
     explicit JointTrees(RigidParts<Scalar>& parts) : bodies_(parts.bodies), joints_(parts.joints) {}
 
-    // Soft joints and distances are left out, and so are those that close loops and those of trees that
-    // particles are attached to and no joint holds. What is held at several places has no held tree.
+    // Distances and what has soft turns are left out, and so are joints that close loops, the soft ones
+    // rather than the rigid, and those of trees that particles are attached to and no joint holds. What is
+    // held rigidly at several places has no held tree.
     void find() {
         std::vector<std::size_t> roots(bodies_.size());
         std::iota(roots.begin(), roots.end(), std::size_t{0});
-        for (Joint& joint : joints_) {
-            const bool joins = bodies_[joint.a].moves && bodies_[joint.b].moves;
-            joint.in_tree = joint.keeps_push() && !(joins && roots[joint.a] == roots[joint.b]);
-            if (joint.in_tree && joins) {
-                const auto [root, other] = std::minmax(roots[joint.a], roots[joint.b]);
-                std::replace(roots.begin(), roots.end(), std::size_t{other}, std::size_t{root});
+        for (const bool soft : {false, true}) {
+            for (Joint& joint : joints_) {
+                if (joint.has_soft_points() == soft) {
+                    choose(joint, roots);
+                }
             }
         }
         for (std::size_t root = 0; root < bodies_.size(); ++root) {
@@ -54,16 +55,22 @@ public:
             bool attached = false;
             for_each_body(tree,
                           [&](const Body& body) { attached = attached || (body.moves && body.attached); });
-            const auto holds = std::count_if(tree.joints.begin(), tree.joints.end(), [&](std::size_t i) {
-                return bodies_[joints_[i].a].moves != bodies_[joints_[i].b].moves;
-            });
-            if (attached && holds == 0) {
+            int rigid_holds = 0;
+            int soft_holds = 0;
+            for (const std::size_t i : tree.joints) {
+                const bool soft = joints_[i].has_soft_points();
+                tree.springs = tree.springs || soft;
+                if (bodies_[joints_[i].a].moves != bodies_[joints_[i].b].moves) {
+                    ++(soft ? soft_holds : rigid_holds);
+                }
+            }
+            if (attached && rigid_holds + soft_holds == 0) {
                 for (const std::size_t i : tree.joints) {
                     joints_[i].in_tree = false;
                 }
                 continue;
             }
-            tree.held = holds == 1;
+            tree.held = rigid_holds == 1 || (rigid_holds == 0 && soft_holds != 0);
             for (const std::size_t i : tree.joints) {
                 joints_[i].in_held_tree = tree.held;
             }
@@ -92,18 +99,23 @@ public:
         }
         for (Tree& tree : trees_) {
             for_each_body(tree, [](Body& body) { body.stiffen(); });
-            const std::size_t size = 3 * tree.joints.size();
-            std::vector<Scalar> matrix(size * size);
-            for (std::size_t column = 0; column < size; ++column) {
-                clear_pushes(tree);
-                add_push(joints_[tree.joints[column / 3]],
-                         along_axis(static_cast<int>(column % 3), Scalar(1)));
-                for (std::size_t row = column; row < size; ++row) {
-                    const Vec motion = point_motion(joints_[tree.joints[row / 3]]);
-                    matrix[row * size + column] = component(motion, static_cast<int>(row % 3));
+            factor(tree, true);
+        }
+    }
+
+    // What is undone strains no spring: their points stay as far apart as they are.
+    void hold_springs() {
+        for (Tree& tree : trees_) {
+            if (!tree.springs) {
+                continue;
+            }
+            for (const std::size_t i : tree.joints) {
+                Joint& joint = joints_[i];
+                if (joint.has_soft_points()) {
+                    joint.start = joint.offset(bodies_[joint.a], bodies_[joint.b]);
                 }
             }
-            tree.points.factor(size, std::move(matrix));
+            factor(tree, false);
         }
     }
 
@@ -114,8 +126,7 @@ public:
         std::vector<Scalar> pushes;
         for (const std::size_t i : tree.joints) {
             const Joint& joint = joints_[i];
-            const Vec offset = joint.offset(bodies_[joint.a], bodies_[joint.b]);
-            const Vec error = (to_start ? offset - joint.start : offset) + point_motion(joint);
+            const Vec error = error_of(joint, to_start) + point_motion(joint);
             pushes.insert(pushes.end(), {-error.x, -error.y, -error.z});
         }
         tree.points.solve(pushes);
@@ -150,6 +161,16 @@ public:
             }
             solve_points(tree, false);
         }
+    }
+
+    // How far its points are to come together: in this substep, or at all.
+    Vec error_of(const Joint& joint, bool in_substep) const {
+        const Body& a = bodies_[joint.a];
+        const Body& b = bodies_[joint.b];
+        if (in_substep) {
+            return joint.left_of_points(a, b);
+        }
+        return joint.has_soft_points() ? joint.offset(a, b) - joint.start : joint.offset(a, b);
     }
 
     // What trees have in common with those that are held.
@@ -191,6 +212,32 @@ public:
     }
 
 private:
+    // Unless it closes a loop.
+    void choose(Joint& joint, std::vector<std::size_t>& roots) const {
+        const bool joins = bodies_[joint.a].moves && bodies_[joint.b].moves;
+        joint.in_tree = joint.may_be_in_tree() && !(joins && roots[joint.a] == roots[joint.b]);
+        if (joint.in_tree && joins) {
+            const auto [root, other] = std::minmax(roots[joint.a], roots[joint.b]);
+            std::replace(roots.begin(), roots.end(), std::size_t{other}, std::size_t{root});
+        }
+    }
+
+    void factor(Tree& tree, bool springs_give) {
+        const std::size_t size = 3 * tree.joints.size();
+        std::vector<Scalar> matrix(size * size);
+        for (std::size_t column = 0; column < size; ++column) {
+            const Joint& joint = joints_[tree.joints[column / 3]];
+            clear_pushes(tree);
+            add_push(joint, along_axis(static_cast<int>(column % 3), Scalar(1)));
+            for (std::size_t row = column; row < size; ++row) {
+                const Vec motion = point_motion(joints_[tree.joints[row / 3]]);
+                matrix[row * size + column] = component(motion, static_cast<int>(row % 3));
+            }
+            matrix[column * size + column] += springs_give ? joint.points_give() : Scalar(0);
+        }
+        tree.points.factor(size, std::move(matrix));
+    }
+
     // From the root on: all those of a body before those of its children.
     std::vector<std::size_t> joints_from(std::size_t root) const {
         std::vector<std::size_t> found;

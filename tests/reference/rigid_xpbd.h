@@ -2,8 +2,8 @@
 // measured against.
 //
 // The same substeps in the same order: the implicit midpoint rule for spins, Cayley's map, the points of a
-// tree's joints by one linear solve with the velocities that follow, those of soft joints and of those that
-// close loops by a block each, distances by a row each, what hinges and fixed joints don't let turn by
+// tree's joints by one linear solve with the velocities that follow, those of joints that close loops, or
+// have soft turns, by a block each, distances by a row each, what hinges and fixed joints don't let turn by
 // another, limits and contacts by rows whose pushes only push, carried pushes with a factor for each figure,
 // impacts before the prediction, and errors undone without speed. What differs:
 //   - the points' system is a dense matrix for each tree, where the SDK eliminates it along its tree;
@@ -203,6 +203,7 @@ private:
                 }
             });
         }
+        trees_.hold_springs();
         for (const JointTree<Scalar>& tree : trees_) {
             if (!tree.held || !held_.undo_errors(tree)) {
                 trees_.undo_errors(tree);

@@ -53,9 +53,12 @@ void fold_in(ArticulatedInverse& w, const ArticulatedJoint& joint) {
     take_out_rows(w, solved, rows, dot_32);
 }
 
-void factor_joint(RigidScene& scene, ArticulatedJoint& part) {
+void factor_joint(RigidScene& scene, ArticulatedJoint& part, bool springs_give) {
     std::int64_t d[6] = {};
     place_joint(scene, part, part.column_shift, part.column_turn, d);
+    if (springs_give) {
+        soften_points(scene.joints[part.joint], part.pair_share, d);
+    }
     part.inverse = invert_symmetric(d);
 }
 
@@ -116,13 +119,13 @@ public:
 
     void factor() {
         if (range_.is_uneven) {
-            factor_uneven(scene_, range_);
+            factor_uneven(scene_, range_, springs_give_);
             return;
         }
         for_each_body(
             [](Body& body, ArticulatedBody& part) { part.inverse = own_inverse(body, part.share); });
         for_each_joint_back([this](ArticulatedJoint& part, const Joint&) {
-            factor_joint(scene_, part);
+            factor_joint(scene_, part, springs_give_);
             // Nothing is carried by what the root's first joint leaves of it.
             if (&part != &scene_.tree_joints[range_.first_joint]) {
                 fold_in(scene_.articulated[part.parent].inverse, part);
@@ -141,8 +144,7 @@ public:
             }
         });
         for_each_joint_back([&](ArticulatedJoint& part, const Joint& joint) {
-            Vec3 apart = error(joint, body_a(joint), body_b(joint));
-            clamp_vector(apart, greatest_step);
+            const Vec3 apart = error(joint, body_a(joint), body_b(joint));
             fold_error(part, part.child_is_a ? -apart : apart);
         });
         for_each_joint([&](ArticulatedJoint& part, Joint& joint) {
@@ -211,8 +213,32 @@ public:
 
     void bring_together() {
         follow_uneven();
-        solve([](const Joint& joint, const Body& a, const Body& b) { return joint_offset(joint, a, b); },
-              [](const Joint&, const Vec3&) {});
+        solve(
+            [](const Joint& joint, const Body& a, const Body& b) {
+                Vec3 apart = joint_offset(joint, a, b);
+                if (has_soft_points(joint.constants)) {
+                    apart = apart - joint.start;
+                }
+                clamp_vector(apart, greatest_step);
+                return apart;
+            },
+            [](const Joint&, const Vec3&) {});
+    }
+
+    // What is undone strains no spring: those of joints' points keep their length.
+    void hold_springs() {
+        if (!range_.has_springs) {
+            return;
+        }
+        springs_give_ = false;
+        for_each_joint([this](const ArticulatedJoint&, Joint& joint) {
+            if (has_soft_points(joint.constants)) {
+                joint.start = joint_offset(joint, body_a(joint), body_b(joint));
+            }
+        });
+        if (!range_.is_uneven) {
+            factor();
+        }
     }
 
     // Back to what the bodies' descriptions have.
@@ -238,6 +264,8 @@ public:
     }
 
 private:
+    bool springs_give_ = true;
+
     void stiffen_by_tensions() {
         for_each_body([](Body&, ArticulatedBody& part) { part.found_load = 0; });
         for_each_joint([this](const ArticulatedJoint& part, const Joint& joint) {
@@ -342,8 +370,7 @@ void add_tree_push(Joint& joint, const Vec3& push, bool is_uneven) {
 void solve_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     Tree all(scene, tree);
     all.follow_uneven();
-    all.solve([](const Joint& joint, const Body& a,
-                 const Body& b) { return joint_offset(joint, a, b) - joint.start; },
+    all.solve(left_of_points,
               [&tree](Joint& joint, const Vec3& push) { add_tree_push(joint, push, tree.is_uneven); });
 }
 
@@ -385,6 +412,7 @@ void finish_undoing(RigidScene& scene, const ArticulatedTree& tree, bool far_off
 
 void undo_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     Tree all(scene, tree);
+    all.hold_springs();
     if (tree.is_held && undo_held_tree(scene, tree)) {
         all.bring_together();
         all.make_units();

@@ -1,5 +1,5 @@
-// Joints' points solved all at once, where joints form trees: bodies on ball joints, hinges and fixed joints
-// without compliance.
+// Joints' points solved all at once, where joints form trees: bodies on ball joints, hinges and fixed joints,
+// whose points may be springs.
 //
 // Sweeps bring the points of one joint together and part those of the next; what is to move a long limb, or a
 // heavy end, takes many of them. In a tree the linear system of all points is solved exactly in one pass from
@@ -9,8 +9,9 @@
 //
 //     D = L_p W_p L_pᵀ + L_c W_c L_cᵀ     W_p ← W_p − (W_p L_pᵀ) D⁻¹ (W_p L_pᵀ)ᵀ
 //
-// with L the motion of the joint's point by that of the body. Joints that close a loop, soft ones and
-// distances are left to the sweeps.
+// with L the motion of the joint's point by that of the body. A spring adds what it gives way by to D (XPBD's
+// α̃ / (1 + γ)), and pushes from nothing in each substep; what is undone without speed strains none. Joints
+// that close a loop, soft turns and distances are left to the sweeps.
 //
 // Numbers: inverse masses are shares of the greatest one in the tree, levers and turns in each body's own
 // unit of length (rigid/inertia.h), 32 fraction bits; pushes and errors are lengths in World. Where masses

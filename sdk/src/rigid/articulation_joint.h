@@ -28,6 +28,17 @@ inline void place_joint(RigidScene& scene, ArticulatedJoint& part, fixed::Vec3 (
     add_point_motion(part.parent_lever, column_shift, column_turn, d);
 }
 
+// What a soft joint's points give way by counts in D, too. `greater_share`: the pair's greater inverse mass.
+inline void soften_points(const Joint& joint, std::int64_t greater_share, std::int64_t (&d)[6]) {
+    const std::int64_t softness = joint.constants.points.softness;
+    if (softness != 0) {
+        const std::int64_t more = fixed::multiply_shift(softness, greater_share, 30);
+        d[0] = plus(d[0], more);
+        d[3] = plus(d[3], more);
+        d[5] = plus(d[5], more);
+    }
+}
+
 // By what of a parent's six directions its joint's pushes move.
 inline void rows_of(const fixed::Vec3 (&column_shift)[3], const fixed::Vec3 (&column_turn)[3],
                     fixed::Vec3 (&rows)[6]) {

@@ -90,8 +90,9 @@ struct ArticulatedTree {
     // By a joint to what does not move, by a rope that such a thing holds, or a light body by heavy ones on
     // both sides: what joints turn is solved with their points (rigid/held_tree.h).
     bool is_held;
-    bool is_loaded; // it hangs on ropes that bear it
-    bool is_uneven; // one of its bodies has a hundred times the mass of another, and more
+    bool is_loaded;   // it hangs on ropes that bear it
+    bool has_springs; // in the points of a joint
+    bool is_uneven;   // one of its bodies has a hundred times the mass of another, and more
     // How often its longest lever is twice as long as those of most trees at most: what pushes there turns by
     // as much more.
     int lever_doublings;

@@ -19,6 +19,9 @@ using fixed::Vec3;
 constexpr std::int32_t greatest_inverse_shift = 14;
 constexpr std::int64_t farthest_lever = 8;
 
+// Of points: of one that is softer the sweeps push as much.
+constexpr std::int64_t greatest_tree_softness = std::int64_t{1} << (30 + 12);
+
 // Of masses in a tree (ArticulatedTree::is_uneven). Those of ragdolls are below it. With ropes that bear them
 // uneven trees are not solved: there even ones bear more.
 constexpr std::int64_t uneven_ratio = 100;
@@ -66,11 +69,17 @@ public:
         scene_.tree_bodies.clear();
         scene_.tree_joints.clear();
         scene_.trees.clear();
-        for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
-            scene_.joints[i].in_tree = scene_.joints[i].in_held_tree = false;
-            if (scene_.joint_slots[i].used && may_be_solved(scene_.joints[i]) &&
-                !is_anchor(scene_.joints[i])) {
-                choose(i);
+        for (Joint& joint : scene_.joints) {
+            joint.in_tree = joint.in_held_tree = false;
+        }
+        // What closes a loop is rather a soft one.
+        for (const bool soft : {false, true}) {
+            for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
+                const Joint& joint = scene_.joints[i];
+                if (scene_.joint_slots[i].used && has_soft_points(joint.constants) == soft &&
+                    may_be_solved(joint) && !is_anchor(joint)) {
+                    choose(i);
+                }
             }
         }
         choose_anchors();
@@ -105,7 +114,7 @@ private:
         const JointDescription& d = joint.description;
         const Body& a = scene_.bodies[d.body_a];
         const Body& b = scene_.bodies[d.body_b];
-        return d.kind != LKS_JOINT_DISTANCE && joint.constants.points.softness == 0 &&
+        return d.kind != LKS_JOINT_DISTANCE && joint.constants.points.softness <= greatest_tree_softness &&
                joint.constants.angular_softness == 0 && (a.is_awake() || b.is_awake()) &&
                is_near(a, d.point_a) && is_near(b, d.point_b);
     }
@@ -142,6 +151,10 @@ private:
             }
             const JointDescription& d = joint.description;
             const std::uint32_t held = scene_.bodies[d.body_a].is_awake() ? d.body_a : d.body_b;
+            if (has_soft_points(joint.constants)) { // it asks for nothing impossible
+                scene_.tree_links.push_reserved(std::uint64_t{held} << 32 | i);
+                continue;
+            }
             ArticulatedBody& body = scene_.articulated[held];
             ArticulatedBody& root = scene_.articulated[roots_.root(held)];
             if (root.tree_has_anchor && (body.has_anchor || !fits(joint))) {
@@ -215,7 +228,8 @@ private:
             anchored = anchored || is_anchored(scene_.articulated[parent]);
             add_joints(parent);
         }
-        if (attached && count_holds(begin_joints) == 0) {
+        const Holds holds = count_holds(begin_joints);
+        if (attached && holds.rigid + holds.soft == 0) {
             drop_from(begin, begin_joints);
             return;
         }
@@ -242,15 +256,32 @@ private:
             mark_held(begin_joints, anchored || lies_between_heavy_bodies(scene_, begin, begin_joints));
         scene_.trees.push_reserved({begin, static_cast<std::uint32_t>(scene_.tree_bodies.size()),
                                     begin_joints, static_cast<std::uint32_t>(scene_.tree_joints.size()), held,
-                                    loaded, uneven, find_doublings(begin_joints)});
+                                    loaded, has_springs(begin_joints), uneven, find_doublings(begin_joints)});
         any_held_ = any_held_ || held;
         any_uneven_ = any_uneven_ || uneven;
     }
 
     // Joints of the tree that begins there to what does not move.
-    std::ptrdiff_t count_holds(std::size_t joint) const {
-        return std::count_if(scene_.tree_joints.begin() + joint, scene_.tree_joints.end(),
-                             [](const ArticulatedJoint& at) { return !at.child_moves; });
+    struct Holds {
+        int rigid = 0;
+        int soft = 0;
+    };
+    Holds count_holds(std::size_t joint) const {
+        Holds holds;
+        for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
+            const ArticulatedJoint& at = scene_.tree_joints[i];
+            if (!at.child_moves) {
+                ++(has_soft_points(scene_.joints[at.joint].constants) ? holds.soft : holds.rigid);
+            }
+        }
+        return holds;
+    }
+
+    bool has_springs(std::size_t joint) const {
+        return std::any_of(scene_.tree_joints.begin() + joint, scene_.tree_joints.end(),
+                           [this](const ArticulatedJoint& at) {
+                               return has_soft_points(scene_.joints[at.joint].constants);
+                           });
     }
 
     // Of the joints of the tree that begins there.
@@ -295,10 +326,10 @@ private:
 
     // The joints of the tree that begins there, where something holds it or one of them is to what does not
     // move. Where several are, as of a bridge, hinges and fixed joints hold the same twice: their rows depend
-    // on each other, and solved together they would throw the bridge apart.
+    // on each other, and solved together they would throw the bridge apart. Springs give way.
     bool mark_held(std::size_t joint, bool held) {
-        const std::ptrdiff_t holds = count_holds(joint);
-        held = holds == 1 || (held && holds == 0);
+        const Holds holds = count_holds(joint);
+        held = holds.rigid == 1 || (holds.rigid == 0 && (held || holds.soft != 0));
         for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
             scene_.joints[scene_.tree_joints[i].joint].in_held_tree = held;
         }

@@ -31,8 +31,8 @@ bool may_be_free(const RigidScene& scene, const FigureRange& figure) {
 bool turns_freely(const Joint& joint) {
     const std::uint32_t kind = joint.description.kind;
     const JointConstants& c = joint.constants;
-    return (kind == LKS_JOINT_BALL || kind == LKS_JOINT_HINGE) && joint.in_tree && c.grip == 0 &&
-           c.drag_softness == 0;
+    return (kind == LKS_JOINT_BALL || kind == LKS_JOINT_HINGE) && joint.in_tree && c.points.softness == 0 &&
+           c.grip == 0 && c.drag_softness == 0;
 }
 
 bool is_hinge(const Joint& joint) {

@@ -112,10 +112,15 @@ public:
                     part.child_moves ? own_turn_about(part.child, held.child_axes[i]) : 0;
                 held.softness[i] = plus(by_child, own_turn_about(part.parent, held.parent_axes[i])) >> 20;
             }
-            Vec3 apart = joint_offset(joint, a, b) - (in_substep_ ? joint.start : Vec3{0, 0, 0});
-            const Vec3 whole = apart;
-            clamp_vector(apart, greatest_step);
-            near = near && apart == whole;
+            const bool soft = has_soft_points(joint.constants);
+            Vec3 apart = joint_offset(joint, a, b) - (in_substep_ || soft ? joint.start : Vec3{0, 0, 0});
+            if (in_substep_ && soft) {
+                apart = left_of_points(joint, a, b);
+            } else {
+                const Vec3 whole = apart;
+                clamp_vector(apart, greatest_step);
+                near = near && apart == whole;
+            }
             held.error = part.child_is_a ? -apart : apart;
         });
         return near;
@@ -253,15 +258,15 @@ private:
             load.inverse = invert_pivot(along(pull, load.column_shift, load.column_turn));
             take_out(body.inverse, load.column_shift, load.column_turn, load.inverse);
         });
-        for_each_held_back([this](const ArticulatedJoint& part, const Joint&, HeldJoint& held) {
-            factor_joint(part, held);
+        for_each_held_back([this](const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
+            factor_joint(part, joint, held);
             if (&part != &scene_.tree_joints[range_.first_joint]) {
                 fold_in(scene_.articulated[part.parent].inverse, held);
             }
         });
     }
 
-    void factor_joint(const ArticulatedJoint& part, HeldJoint& held) {
+    void factor_joint(const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
         std::int64_t d[most_rows][most_rows] = {};
         Wrench wrenches[most_rows];
         if (part.child_moves) {
@@ -274,6 +279,13 @@ private:
         // bounds: by a millionth of what their bones by themselves give way they are soft.
         for_each_pushing(
             held, [&](int row, std::uint32_t i) { d[row][row] = plus(d[row][row], held.softness[i]); });
+        if (in_substep_) {
+            const std::int64_t give =
+                fixed::multiply_shift(joint.constants.points.softness, part.pair_share, 30);
+            for (int row = 0; row < point_rows; ++row) {
+                d[row][row] = plus(d[row][row], give);
+            }
+        }
         lks::factor(d, held.system);
     }
 

@@ -33,7 +33,7 @@ bool needs_block(const Joint& joint) {
 // their centres; what holds the points of a soft joint begins from nothing. Until it has pushed, that turn
 // looks like one to be stopped, and the joint would let go in each substep of what it holds.
 bool drives_before_points(const Joint& joint) {
-    return joint.constants.grip != 0 && !keeps_push(joint) && !is_distance(joint);
+    return joint.constants.grip != 0 && !keeps_push(joint) && !is_distance(joint) && !joint.in_tree;
 }
 
 // How far such a turn moves a point, to first order.
@@ -80,6 +80,19 @@ Vec3 joint_offset(const Joint& joint, const Body& a, const Body& b) {
     return saturating_add(saturating_subtract(b.position, a.position),
                           fixed::rotate(b.rotation, joint.description.point_b) -
                               fixed::rotate(a.rotation, joint.description.point_a));
+}
+
+Vec3 left_of_points(const Joint& joint, const Body& a, const Body& b) {
+    const Vec3 offset = joint_offset(joint, a, b);
+    Vec3 left = offset - joint.start;
+    if (has_soft_points(joint.constants)) {
+        const Softness& softness = joint.constants.points;
+        left = soften(softness, offset, offset - joint.begin, joint.push);
+        clamp_vector(left, greatest_step_of(softness));
+    } else {
+        clamp_vector(left, greatest_step);
+    }
+    return left;
 }
 
 void forget_pushes(Joint& joint) {

@@ -114,6 +114,11 @@ inline bool has_ellipse(const JointConstants& c) {
     return c.swing_limited && !c.swing_round;
 }
 
+// In its points.
+inline bool has_soft_points(const JointConstants& c) {
+    return c.points.softness != 0;
+}
+
 // In its points, or in what a hinge or a fixed joint holds.
 inline bool has_spring(const JointConstants& c) {
     return c.points.softness != 0 || c.angular_softness != 0;
@@ -195,6 +200,10 @@ void add_up_pushes(Joint& joint, const Body& a, const Body& b);
 bool undo_error(const Joint& joint, Body& a, Body& b, bool pinned);
 // Its load over the last tick is more than it bears.
 bool breaks(const Joint& joint);
+
+// What a tree's solve is to bring to zero in a substep: how far the points have parted in it, or of a spring
+// what it leaves to be made up for.
+fixed::Vec3 left_of_points(const Joint& joint, const Body& a, const Body& b);
 
 // How far the points are apart in world axes, b less a.
 fixed::Vec3 joint_offset(const Joint& joint, const Body& a, const Body& b);

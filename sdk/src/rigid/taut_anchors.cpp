@@ -22,7 +22,7 @@ public:
         bool any = false;
         for (std::size_t i = begin_; i < scene_.tree_joints.size(); ++i) {
             const ArticulatedJoint& part = scene_.tree_joints[i];
-            if (part.child_moves) {
+            if (part.child_moves || has_soft_points(scene_.joints[part.joint].constants)) {
                 continue;
             }
             if (first == nullptr) {

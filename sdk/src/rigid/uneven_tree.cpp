@@ -106,18 +106,26 @@ class UnevenTree : public ArticulationWalk {
 public:
     UnevenTree(RigidScene& scene, const ArticulatedTree& range) : ArticulationWalk(scene, range) {}
 
-    void factor() {
+    void factor(bool springs_give) {
         for_each_body(
             [](Body& body, ArticulatedBody& part) { part.inverse = fine_inverse(body, part.fine_share); });
-        for_each_joint_back([this](ArticulatedJoint& part, const Joint&) {
+        for_each_joint_back([&](ArticulatedJoint& part, const Joint& joint) {
             UnevenJoint& fine = uneven_joint(scene_, part);
             std::int64_t d[6] = {};
             place_joint(scene_, part, fine.column_shift, fine.column_turn, d);
+            if (springs_give) {
+                soften_points(joint, fine_pair_share(part), d);
+            }
             factor_points(d, fine);
             if (&part != &scene_.tree_joints[range_.first_joint]) {
                 fold_in(scene_.articulated[part.parent].inverse, fine);
             }
         });
+    }
+
+    std::int64_t fine_pair_share(const ArticulatedJoint& part) const {
+        const std::int64_t parent = scene_.articulated[part.parent].fine_share;
+        return part.child_moves ? std::max(parent, scene_.articulated[part.child].fine_share) : parent;
     }
 
     static UnevenJoint& uneven_joint(RigidScene& scene, const ArticulatedJoint& part) {
@@ -127,8 +135,8 @@ public:
 
 } // namespace
 
-void factor_uneven(RigidScene& scene, const ArticulatedTree& tree) {
-    UnevenTree(scene, tree).factor();
+void factor_uneven(RigidScene& scene, const ArticulatedTree& tree, bool springs_give) {
+    UnevenTree(scene, tree).factor(springs_give);
 }
 
 void fold_uneven(RigidScene& scene, const ArticulatedTree& tree, ArticulatedJoint& part, const Vec3& apart) {

@@ -22,7 +22,7 @@ constexpr std::int64_t greatest_push_of(const ArticulatedTree& tree) {
     return greatest_uneven_push >> tree.lever_doublings;
 }
 
-void factor_uneven(RigidScene& scene, const ArticulatedTree& tree);
+void factor_uneven(RigidScene& scene, const ArticulatedTree& tree, bool springs_give);
 // From the leaves on, with how far the child's point is from the parent's, World: what its push would be if
 // nothing pushed the parent.
 void fold_uneven(RigidScene& scene, const ArticulatedTree& tree, ArticulatedJoint& part,
