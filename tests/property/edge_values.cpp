@@ -550,7 +550,7 @@ private:
 
 // Under a sanitizer as many as take some seconds.
 TEST_CASE("what is at the ends of ranges is refused, or gives an image that loads and has the same future") {
-    const std::uint64_t seeds = sanitised ? 6 : long_runs() ? 2000 : 40;
+    const std::uint64_t seeds = sanitised ? 6 : long_runs() ? 2000 : 16;
     int refused = 0;
     int accepted = 0;
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {

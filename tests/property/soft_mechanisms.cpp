@@ -162,19 +162,20 @@ private:
 };
 
 struct Found {
+    int made;
     int gaining = 0; // by a joule and a twentieth
     int apart = 0;   // rigid joints, by more than a millimetre at any time
 };
 
-// Of so many that are made.
-constexpr int made = 60;
 Found look_at(std::uint32_t substeps, double heaviest) {
-    Found found;
+    const int made = sanitised ? 10 : long_runs() ? 60 : 24;
+    const int ticks = sanitised ? 120 : long_runs() ? 600 : 300;
+    Found found{made};
     double gained = 0;
     double apart = 0;
-    for (int seed = 0; seed < (sanitised ? 2 : made); ++seed) {
+    for (int seed = 0; seed < made; ++seed) {
         Mechanism mechanism(static_cast<std::uint64_t>(seed), substeps, heaviest);
-        mechanism.run(sanitised ? 60 : 600);
+        mechanism.run(ticks);
         const double share = mechanism.gained() > 1 ? mechanism.gained_share() : 0;
         found.gaining += share > 0.05 ? 1 : 0;
         found.apart += mechanism.apart() > 0.001 ? 1 : 0;
@@ -189,17 +190,17 @@ Found look_at(std::uint32_t substeps, double heaviest) {
 
 } // namespace
 
-// With soft points swept beside the trees of rigid ones: 2, 1 and 3 gained up to 93 % of their motion, and
-// 26, 18 and 9 were apart, by up to 163, 85 and 19 mm.
+// With soft points swept beside the trees of rigid ones 2, 1 and 3 of 60 gained up to 93 % of their motion in
+// ten seconds, and 26, 18 and 9 were apart, by up to 163, 85 and 19 mm.
 TEST_CASE("springs and rigid joints of one mechanism hold together and gain nothing") {
     const struct {
         std::uint32_t substeps;
-        int apart;
-    } cases[] = {{4, 8}, {8, 4}, {20, 0}};
+        double apart; // of those that are made
+    } cases[] = {{4, 0.15}, {8, 0.05}, {20, 0}};
     for (const auto& at : cases) {
         const Found found = look_at(at.substeps, 10);
         CHECK(found.gaining == 0);
-        CHECK(found.apart <= at.apart);
+        CHECK(found.apart <= at.apart * found.made);
     }
 }
 
@@ -207,5 +208,5 @@ TEST_CASE("springs and rigid joints of one mechanism hold together and gain noth
 TEST_CASE("so they do with masses of one to a thousand") {
     const Found found = look_at(8, 1000);
     CHECK(found.gaining == 0);
-    CHECK(found.apart <= 4);
+    CHECK(found.apart <= 0.1 * found.made);
 }
