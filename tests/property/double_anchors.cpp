@@ -7,6 +7,7 @@
 
 #include "support/bodies.h"
 #include "support/builders.h"
+#include "support/sanitised.h"
 
 using namespace support;
 
@@ -26,6 +27,9 @@ TEST_CASE("a door on two hinges hangs still, however far these are from fitting 
         for (int axis = 0; axis < 3; ++axis) {
             for (const double off : {0., 1e-9, 1e-6, 1e-4, 1e-3, 1e-2}) {
                 for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+                    if (sanitised && (substeps != 8 || axis != 0)) {
+                        continue;
+                    }
                     World world(world_def(60, substeps));
                     const lks_body_id post =
                         add_body(world, box_shape(0.05, 1, 0.05), fixed(0, 1, 0), kinematic());
@@ -69,6 +73,9 @@ TEST_CASE("the one bone that an animation leaves to itself stays where it belong
          {LKS_HUMANOID_UPPER_ARM_LEFT, LKS_HUMANOID_UPPER_LEG_LEFT, LKS_HUMANOID_CHEST}) {
         for (const double noise : {0., 1e-4, 1e-3, 5e-3}) {
             for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+                if (sanitised && substeps != 8) {
+                    continue;
+                }
                 World world(world_def(60, substeps));
                 Humanoid humanoid;
                 humanoid.def.transform.position = fixed(0, 1, 0);

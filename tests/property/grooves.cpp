@@ -8,6 +8,7 @@
 
 #include "support/bodies.h"
 #include "support/builders.h"
+#include "support/sanitised.h"
 
 using namespace support;
 
@@ -111,7 +112,7 @@ TEST_CASE("nothing passes a plate of a groove of ten degrees or more, at any spe
         for (const std::uint32_t substeps : {1u, 4u, 20u}) {
             for (const double speed : {5., 30., 100.}) {
                 double deepest = -1;
-                for (int variant = 0; variant < 4; ++variant) {
+                for (int variant = 0; variant < (sanitised ? 1 : 4); ++variant) {
                     const Groove groove{degrees, variant % 2 == 1, variant / 2 == 1};
                     for (const Asset& thing : things) {
                         const double turn = &thing == things ? 0 : 85;

@@ -7,6 +7,7 @@
 
 #include "support/bodies.h"
 #include "support/builders.h"
+#include "support/sanitised.h"
 
 using namespace support;
 
@@ -47,6 +48,9 @@ std::vector<Vector> places(const World& world, const std::vector<lks_body_id>& b
 
 TEST_CASE("a stack on a lift that goes up or down stands as on the ground") {
     for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+        if (sanitised && substeps != 8) {
+            continue;
+        }
         std::vector<Vector> still;
         for (const double speed : {0., 0.3, 1., -1., 3., -3.}) {
             World world(world_def(60, substeps));

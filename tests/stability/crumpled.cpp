@@ -7,6 +7,7 @@
 
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
+#include "support/sanitised.h"
 
 using namespace support;
 using namespace stability;
@@ -100,6 +101,9 @@ void start_all(const std::string& name, const Kind& kind, const AllBounds& bound
 TEST_CASE("a cloth recovers from wherever its particles begin, or keeps a few folds") {
     start_all("inextensible cloth 16 × 16", {stiff(), false},
               {{1.5, 1, 1e4}, {1.5, 1, 1500}, {1.5, 1, 2000}, {0, 12, 2000}, {5, 1, 2e4}});
+    if (sanitised) {
+        return;
+    }
     start_all("soft cloth 16 × 16, 1e-4 m/N", {soft(1e-4, 1), false},
               {{0, 40, 5000}, {1.5, 1, 1000}, {0, 20, 2000}, {1.5, 1, 2000}, {5, 1, 2e4}});
 }
@@ -107,8 +111,10 @@ TEST_CASE("a cloth recovers from wherever its particles begin, or keeps a few fo
 // At other starts than without tethers. Those pull all of it into shape at once, so that what is close
 // together is shot harder, and what is far away not as hard.
 TEST_CASE("so does a tethered one") {
-    start_all("tethered inextensible cloth 16 × 16", {stiff(), true},
-              {{0, 15, 1500}, {1.5, 1, 4000}, {1.5, 1, 6000}, {1.5, 1, 6000}, {0, 20, 4000}});
+    if (!sanitised) {
+        start_all("tethered inextensible cloth 16 × 16", {stiff(), true},
+                  {{0, 15, 1500}, {1.5, 1, 4000}, {1.5, 1, 6000}, {1.5, 1, 6000}, {0, 20, 4000}});
+    }
     start_all("tethered soft cloth 16 × 16, 1e-4 m/N", {soft(1e-4, 1), true},
               {{1.5, 1, 2000}, {0, 20, 3000}, {1.5, 1, 6000}, {1.5, 1, 6000}, {5, 1, 4000}});
 }
