@@ -18,6 +18,7 @@ std::unique_ptr<Scene> make_box_stack(const SceneInfo& info);
 std::unique_ptr<Scene> make_dominoes(const SceneInfo& info);
 std::unique_ptr<Scene> make_newtons_cradle(const SceneInfo& info);
 std::unique_ptr<Scene> make_bouncing_balls(const SceneInfo& info);
+std::unique_ptr<Scene> make_cart(const SceneInfo& info);
 std::unique_ptr<Scene> make_ragdoll_stairs(const SceneInfo& info);
 std::unique_ptr<Scene> make_ragdoll_pile(const SceneInfo& info);
 std::unique_ptr<Scene> make_ragdoll_hang(const SceneInfo& info);

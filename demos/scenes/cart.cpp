@@ -1,0 +1,163 @@
+// A cart whose wheels hang on springs rolls over bumps, one side after the other, and into a pile of crates.
+#include "scenes/scene_list.h"
+#include "scenes/time_curves.h"
+
+namespace lks_demo {
+namespace {
+
+constexpr std::int64_t start = -4200; // of the cart's middle, along x
+constexpr std::int64_t speed = 4600;
+constexpr std::int64_t wheel_radius = 260;
+
+class Cart final : public Scene {
+public:
+    using Scene::Scene;
+
+private:
+    void configure(lks_world_def& def) override { def.substeps = 8; }
+
+    bool build() override {
+        camera_ = {{-1.6f, 2.2f, 6.4f}, {-0.4f, 0.3f, 0.0f}, 40.0f, {0.4f, 0.85f, 0.5f}};
+        return add_ground(rgb(0x9aa08f)) && add_bump(-2000, 700) && add_bump(-900, -700) &&
+               add_bump(200, 0) && add_chassis() && add_wheels() && add_driver() && add_crates();
+    }
+
+    // A bar across the way, the most of which is in the ground.
+    bool add_bump(std::int64_t x, std::int64_t z) {
+        lks_collider_def def = lks_default_collider_def();
+        def.shape = LKS_SHAPE_CAPSULE;
+        def.radius = millimetres(150);
+        def.half_length = millimetres(z == 0 ? 1100 : 500);
+        def.transform = {millimetres(x, -60, z), turn_about({LKS_FIXED_ONE, 0, 0}, LKS_FIXED_RATIO(1, 4))};
+        def.static_friction = def.dynamic_friction = LKS_FIXED_RATIO(8, 10);
+        ColliderLook look;
+        look.colour = rgb(0x6f6a5f);
+        return add_collider(def, look);
+    }
+
+    // What belongs to the cart meets nothing else of it.
+    bool add_part(const char* name, const lks_body_shape* shapes, std::uint32_t count, const lks_vec3& place,
+                  Rgb colour, lks_body_id& id, lks_fixed spin = 0) {
+        lks_body_def def = lks_default_body_def();
+        def.shapes = shapes;
+        def.shape_count = count;
+        def.transform.position = place;
+        def.velocity = millimetres(speed, 0, 0);
+        def.angular_velocity = {0, 0, spin};
+        def.static_friction = def.dynamic_friction = LKS_FIXED_RATIO(8, 10);
+        def.filter.group = -1;
+        return add_body(name, def, colour, &id);
+    }
+
+    static lks_body_shape box(const lks_vec3& middle, const lks_vec3& half_extents, std::int64_t density) {
+        lks_body_shape shape = lks_default_body_shape();
+        shape.shape = LKS_SHAPE_BOX;
+        shape.transform.position = middle;
+        shape.half_extents = half_extents;
+        shape.density = LKS_FIXED(density);
+        return shape;
+    }
+
+    bool add_chassis() {
+        const lks_body_shape shapes[] = {
+            box(millimetres(0, 0, 0), millimetres(820, 70, 300), 500),
+            box(millimetres(-260, 150, 0), millimetres(460, 80, 300), 300),
+            box(millimetres(-640, 330, 0), millimetres(70, 200, 260), 200),
+        };
+        return add_part("chassis", shapes, 3, millimetres(start, 560, 0), rgb(0xb5402f), chassis_);
+    }
+
+    bool join(lks_joint_def def, lks_body_id a, lks_body_id b, const lks_vec3& on_a, const lks_vec3& on_b) {
+        def.body_a = a;
+        def.body_b = b;
+        def.frame_a.position = on_a;
+        def.frame_b.position = on_b;
+        lks_joint_id id{};
+        return accept(lks_world_add_joint(world(), &def, &id));
+    }
+
+    // A spring that yields by compliance times load, and the damper beside it.
+    static lks_joint_def spring(lks_fixed compliance, std::int64_t damping) {
+        lks_joint_def def = lks_default_joint_def();
+        def.kind = LKS_JOINT_FIXED;
+        def.compliance = compliance;
+        def.damping = LKS_FIXED(damping);
+        return def;
+    }
+
+    bool add_wheel(std::int64_t x, std::int64_t z) {
+        const lks_body_shape hub = box({}, millimetres(70, 50, 90), 3000);
+        lks_body_id axle{};
+        const std::int64_t inner = z - (z > 0 ? 150 : -150);
+        if (!add_part("hub", &hub, 1, millimetres(start + x, wheel_radius, inner), rgb(0x4a4a4a), axle)) {
+            return false;
+        }
+        lks_body_shape tyre = lks_default_body_shape();
+        tyre.shape = LKS_SHAPE_CAPSULE;
+        tyre.radius = millimetres(wheel_radius);
+        tyre.half_length = millimetres(40);
+        tyre.transform.rotation = turn_about({LKS_FIXED_ONE, 0, 0}, LKS_FIXED_RATIO(1, 4));
+        tyre.density = LKS_FIXED(150);
+        lks_body_id wheel{};
+        if (!add_part("wheel", &tyre, 1, millimetres(start + x, wheel_radius, z), rgb(0x2c2f33), wheel,
+                      -LKS_FIXED_RATIO(speed, wheel_radius))) {
+            return false;
+        }
+        lks_joint_def hinge = lks_default_joint_def();
+        hinge.kind = LKS_JOINT_HINGE;
+        // About z: local y along it.
+        hinge.frame_a.rotation = turn_about({LKS_FIXED_ONE, 0, 0}, LKS_FIXED_RATIO(1, 4));
+        hinge.frame_b.rotation = hinge.frame_a.rotation;
+        return join(spring(LKS_FIXED_RATIO(8, 100000), 500), chassis_, axle,
+                    millimetres(x, wheel_radius - 560, inner), {}) &&
+               join(hinge, axle, wheel, millimetres(0, 0, z - inner), {});
+    }
+
+    bool add_wheels() {
+        return add_wheel(-600, -560) && add_wheel(-600, 560) && add_wheel(600, -560) && add_wheel(600, 560);
+    }
+
+    // A head that nods on a soft neck.
+    bool add_driver() {
+        lks_body_shape shapes[] = {lks_default_body_shape(), lks_default_body_shape()};
+        shapes[0].shape = LKS_SHAPE_CAPSULE;
+        shapes[0].radius = millimetres(60);
+        shapes[0].half_length = millimetres(90);
+        shapes[1].radius = millimetres(180);
+        shapes[1].transform.position = millimetres(0, 300, 0);
+        for (lks_body_shape& shape : shapes) {
+            shape.density = LKS_FIXED(300);
+        }
+        lks_body_id head{};
+        lks_joint_def neck = spring(LKS_FIXED_RATIO(1, 1000), 20);
+        neck.angular_compliance = LKS_FIXED_RATIO(4, 1000);
+        neck.angular_damping = LKS_FIXED_RATIO(2, 10);
+        return add_part("driver", shapes, 2, millimetres(start - 200, 900, 0), rgb(0xe0b184), head) &&
+               join(neck, chassis_, head, millimetres(-200, 230, 0), millimetres(0, -110, 0));
+    }
+
+    bool add_crates() {
+        bool good = true;
+        for (int i = 0; i < 6; ++i) {
+            const lks_body_shape shape = box({}, millimetres(200, 200, 200), 60);
+            lks_body_def def = lks_default_body_def();
+            def.shapes = &shape;
+            def.shape_count = 1;
+            const int row = i < 3 ? 0 : i < 5 ? 1 : 2;
+            const int place = i < 3 ? i : i - (i < 5 ? 3 : 5);
+            def.transform.position = millimetres(2400, 200 + 400 * row, -420 + 210 * row + 420 * place);
+            good = good && add_body("crate", def, i % 2 == 0 ? rgb(0xb08a55) : rgb(0x9c7746));
+        }
+        return good;
+    }
+
+    lks_body_id chassis_{};
+};
+
+} // namespace
+
+std::unique_ptr<Scene> make_cart(const SceneInfo& info) {
+    return std::make_unique<Cart>(info);
+}
+
+} // namespace lks_demo
