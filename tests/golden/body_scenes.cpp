@@ -76,3 +76,43 @@ TEST_CASE("the tower of boxes stands where it was put") {
     CHECK(down < 1e-3); // at the top, of ten gaps
     CHECK(lks_world_awake_body_count(scene->world()) == 0);
 }
+
+TEST_CASE(
+    "the cart's wheels stay on their hubs, its springs yield by some centimetres, and it comes to rest") {
+    const std::unique_ptr<lks_demo::Scene> scene = make_scene("cart");
+    // The chassis, four hubs and their wheels, the driver, and six crates.
+    REQUIRE(scene->bodies().size() == 16);
+    const auto rotation_of = [&](std::size_t body) {
+        lks_transform transform{};
+        REQUIRE(lks_body_transform(scene->world(), scene->bodies()[body].id, &transform) == LKS_OK);
+        return transform.rotation;
+    };
+    // Of a hub, in the chassis.
+    const auto place_on_chassis = [&](std::size_t hub) {
+        const lks_rotation turned = rotation_of(0);
+        return rotate({-turned.x, -turned.y, -turned.z, turned.w},
+                      place_of(*scene, hub) - place_of(*scene, 0));
+    };
+    Vector begin[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+        begin[i] = place_on_chassis(1 + 2 * i);
+    }
+    double off_hub = 0;
+    double most = 0;
+    while (scene->tick() < 900) {
+        step(*scene);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const std::size_t hub = 1 + 2 * i;
+            off_hub = std::max(off_hub,
+                               std::abs((place_of(*scene, hub + 1) - place_of(*scene, hub)).length() - 0.15));
+            most = std::max(most, (place_on_chassis(hub) - begin[i]).length());
+        }
+    }
+    CAPTURE(off_hub);
+    CAPTURE(most);
+    CHECK(place_of(*scene, 0).x > 0.8); // among the crates
+    CHECK(off_hub < 1e-3);
+    CHECK(most > 0.02);
+    CHECK(most < 0.15);
+    CHECK(lks_world_awake_body_count(scene->world()) == 0);
+}
