@@ -14,7 +14,7 @@ to 17 minutes.
   --portability  also clang, g++ without SIMD or floating-point registers, with -O0 and with -ffast-math,
                  address, undefined-behaviour and thread sanitizers, every scene on one to eight threads, and
                  the golden states on aarch64, 32-bit arm, s390x, Windows and WebAssembly, under qemu-user,
-                 wine and node: 35 to 65 minutes
+                 wine and node: 35 to 80 minutes
   --long         also the exhaustive sweeps, and with --portability g++ and clang at every -O, clang with
                  -ffast-math, g++ without SIMD, WebAssembly without SIMD, and as many samples of the wide
                  kernels under node and wine as here (under qemu as many as here without --long)
