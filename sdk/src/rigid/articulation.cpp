@@ -215,10 +215,7 @@ public:
         follow_uneven();
         solve(
             [](const Joint& joint, const Body& a, const Body& b) {
-                Vec3 apart = joint_offset(joint, a, b);
-                if (has_soft_points(joint.constants)) {
-                    apart = apart - joint.start;
-                }
+                Vec3 apart = points_apart(joint, a, b, false);
                 clamp_vector(apart, greatest_step);
                 return apart;
             },
@@ -264,8 +261,6 @@ public:
     }
 
 private:
-    bool springs_give_ = true;
-
     void stiffen_by_tensions() {
         for_each_body([](Body&, ArticulatedBody& part) { part.found_load = 0; });
         for_each_joint([this](const ArticulatedJoint& part, const Joint& joint) {
@@ -334,6 +329,8 @@ private:
         push_at_joint(scene_, part, push);
         return push;
     }
+
+    bool springs_give_ = true;
 };
 
 } // namespace

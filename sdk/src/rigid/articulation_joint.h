@@ -28,11 +28,16 @@ inline void place_joint(RigidScene& scene, ArticulatedJoint& part, fixed::Vec3 (
     add_point_motion(part.parent_lever, column_shift, column_turn, d);
 }
 
-// What a soft joint's points give way by counts in D, too. `greater_share`: the pair's greater inverse mass.
+// What a joint's points give way by, in fraction bits and unit of `greater_share`, the pair's greater inverse
+// mass.
+inline std::int64_t points_give(const Joint& joint, std::int64_t greater_share) {
+    return fixed::multiply_shift(joint.constants.points.softness, greater_share, 30);
+}
+
+// It counts in D, too.
 inline void soften_points(const Joint& joint, std::int64_t greater_share, std::int64_t (&d)[6]) {
-    const std::int64_t softness = joint.constants.points.softness;
-    if (softness != 0) {
-        const std::int64_t more = fixed::multiply_shift(softness, greater_share, 30);
+    if (has_soft_points(joint.constants)) {
+        const std::int64_t more = points_give(joint, greater_share);
         d[0] = plus(d[0], more);
         d[3] = plus(d[3], more);
         d[5] = plus(d[5], more);

@@ -228,8 +228,7 @@ private:
             anchored = anchored || is_anchored(scene_.articulated[parent]);
             add_joints(parent);
         }
-        const Holds holds = count_holds(begin_joints);
-        if (attached && holds.rigid + holds.soft == 0) {
+        if (attached && !count_holds(begin_joints).any()) {
             drop_from(begin, begin_joints);
             return;
         }
@@ -265,6 +264,7 @@ private:
     struct Holds {
         int rigid = 0;
         int soft = 0;
+        bool any() const { return rigid + soft != 0; }
     };
     Holds count_holds(std::size_t joint) const {
         Holds holds;

@@ -4,6 +4,7 @@
 
 #include "rigid/articulation.h"
 #include "rigid/articulation_algebra.h"
+#include "rigid/articulation_joint.h"
 #include "rigid/articulation_walk.h"
 #include "rigid/body_motion.h"
 #include "rigid/joint_limits.h"
@@ -112,9 +113,8 @@ public:
                     part.child_moves ? own_turn_about(part.child, held.child_axes[i]) : 0;
                 held.softness[i] = plus(by_child, own_turn_about(part.parent, held.parent_axes[i])) >> 20;
             }
-            const bool soft = has_soft_points(joint.constants);
-            Vec3 apart = joint_offset(joint, a, b) - (in_substep_ || soft ? joint.start : Vec3{0, 0, 0});
-            if (in_substep_ && soft) {
+            Vec3 apart = points_apart(joint, a, b, in_substep_);
+            if (in_substep_ && has_soft_points(joint.constants)) {
                 apart = left_of_points(joint, a, b);
             } else {
                 const Vec3 whole = apart;
@@ -280,8 +280,7 @@ private:
         for_each_pushing(
             held, [&](int row, std::uint32_t i) { d[row][row] = plus(d[row][row], held.softness[i]); });
         if (in_substep_) {
-            const std::int64_t give =
-                fixed::multiply_shift(joint.constants.points.softness, part.pair_share, 30);
+            const std::int64_t give = points_give(joint, part.pair_share);
             for (int row = 0; row < point_rows; ++row) {
                 d[row][row] = plus(d[row][row], give);
             }

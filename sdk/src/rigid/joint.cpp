@@ -82,12 +82,16 @@ Vec3 joint_offset(const Joint& joint, const Body& a, const Body& b) {
                               fixed::rotate(a.rotation, joint.description.point_a));
 }
 
-Vec3 left_of_points(const Joint& joint, const Body& a, const Body& b) {
+Vec3 points_apart(const Joint& joint, const Body& a, const Body& b, bool in_substep) {
     const Vec3 offset = joint_offset(joint, a, b);
-    Vec3 left = offset - joint.start;
-    if (has_soft_points(joint.constants)) {
+    return in_substep || has_soft_points(joint.constants) ? offset - joint.start : offset;
+}
+
+Vec3 left_of_points(const Joint& joint, const Body& a, const Body& b) {
+    Vec3 left = points_apart(joint, a, b, true);
+    if (has_soft_points(joint.constants)) { // of which nothing is kept
         const Softness& softness = joint.constants.points;
-        left = soften(softness, offset, offset - joint.begin, joint.push);
+        left = soften(softness, left, left - joint.begin, joint.push);
         clamp_vector(left, greatest_step_of(softness));
     } else {
         clamp_vector(left, greatest_step);

@@ -201,6 +201,9 @@ bool undo_error(const Joint& joint, Body& a, Body& b, bool pinned);
 // Its load over the last tick is more than it bears.
 bool breaks(const Joint& joint);
 
+// How far the points are to come together: to where they were when a substep began, or, without giving speed,
+// at all. Springs are not undone: `start` is then how far they are apart behind it.
+fixed::Vec3 points_apart(const Joint& joint, const Body& a, const Body& b, bool in_substep);
 // What a tree's solve is to bring to zero in a substep: how far the points have parted in it, or of a spring
 // what it leaves to be made up for.
 fixed::Vec3 left_of_points(const Joint& joint, const Body& a, const Body& b);
