@@ -110,10 +110,10 @@ void hang_joints(double factor) {
     const std::string name = name_of("3 links on joints of 1e-4 m/N", factor);
     expect_at_most(name, "energy gained, of the greatest motion", "%", 1, 100 * course.gained_share.fixed,
                    100 * course.gained_share.single);
-    // Three kilograms that swing hang on it with some ninety newtons. Far above critical they creep apart.
+    // Three kilograms that swing hang on it with some ninety newtons.
     expect_at_most(name, "joints apart, worst", "mm",
-                   factor > 100  ? 150
-                   : factor > 10 ? 80
+                   factor > 100  ? 2
+                   : factor > 10 ? 8
                                  : 40,
                    1000 * course.gap.fixed, 1000 * course.gap.single);
 }
