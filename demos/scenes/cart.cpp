@@ -7,7 +7,13 @@ namespace {
 
 constexpr std::int64_t start = -4200; // of the cart's middle, along x
 constexpr std::int64_t speed = 4600;
+constexpr std::int64_t chassis_height = 560;
 constexpr std::int64_t wheel_radius = 260;
+
+// Local y along z.
+lks_rotation along_z() {
+    return turn_about({LKS_FIXED_ONE, 0, 0}, LKS_FIXED_RATIO(1, 4));
+}
 
 class Cart final : public Scene {
 public:
@@ -28,7 +34,7 @@ private:
         def.shape = LKS_SHAPE_CAPSULE;
         def.radius = millimetres(150);
         def.half_length = millimetres(z == 0 ? 1100 : 500);
-        def.transform = {millimetres(x, -60, z), turn_about({LKS_FIXED_ONE, 0, 0}, LKS_FIXED_RATIO(1, 4))};
+        def.transform = {millimetres(x, -60, z), along_z()};
         def.static_friction = def.dynamic_friction = LKS_FIXED_RATIO(8, 10);
         ColliderLook look;
         look.colour = rgb(0x6f6a5f);
@@ -64,7 +70,7 @@ private:
             box(millimetres(-260, 150, 0), millimetres(460, 80, 300), 300),
             box(millimetres(-640, 330, 0), millimetres(70, 200, 260), 200),
         };
-        return add_part("chassis", shapes, 3, millimetres(start, 560, 0), rgb(0xb5402f), chassis_);
+        return add_part("chassis", shapes, 3, millimetres(start, chassis_height, 0), rgb(0xb5402f), chassis_);
     }
 
     bool join(lks_joint_def def, lks_body_id a, lks_body_id b, const lks_vec3& on_a, const lks_vec3& on_b) {
@@ -96,7 +102,7 @@ private:
         tyre.shape = LKS_SHAPE_CAPSULE;
         tyre.radius = millimetres(wheel_radius);
         tyre.half_length = millimetres(40);
-        tyre.transform.rotation = turn_about({LKS_FIXED_ONE, 0, 0}, LKS_FIXED_RATIO(1, 4));
+        tyre.transform.rotation = along_z();
         tyre.density = LKS_FIXED(150);
         lks_body_id wheel{};
         if (!add_part("wheel", &tyre, 1, millimetres(start + x, wheel_radius, z), rgb(0x2c2f33), wheel,
@@ -105,11 +111,9 @@ private:
         }
         lks_joint_def hinge = lks_default_joint_def();
         hinge.kind = LKS_JOINT_HINGE;
-        // About z: local y along it.
-        hinge.frame_a.rotation = turn_about({LKS_FIXED_ONE, 0, 0}, LKS_FIXED_RATIO(1, 4));
-        hinge.frame_b.rotation = hinge.frame_a.rotation;
+        hinge.frame_a.rotation = hinge.frame_b.rotation = along_z();
         return join(spring(LKS_FIXED_RATIO(8, 100000), 500), chassis_, axle,
-                    millimetres(x, wheel_radius - 560, inner), {}) &&
+                    millimetres(x, wheel_radius - chassis_height, inner), {}) &&
                join(hinge, axle, wheel, millimetres(0, 0, z - inner), {});
     }
 

@@ -12,10 +12,14 @@ using namespace support;
 
 namespace {
 
-Vector place_of(const lks_demo::Scene& scene, std::size_t body) {
+lks_transform transform_of(const lks_demo::Scene& scene, std::size_t body) {
     lks_transform transform{};
     REQUIRE(lks_body_transform(scene.world(), scene.bodies()[body].id, &transform) == LKS_OK);
-    return metres(transform.position);
+    return transform;
+}
+
+Vector place_of(const lks_demo::Scene& scene, std::size_t body) {
+    return metres(transform_of(scene, body).position);
 }
 
 } // namespace
@@ -82,15 +86,8 @@ TEST_CASE(
     const std::unique_ptr<lks_demo::Scene> scene = make_scene("cart");
     // The chassis, four hubs and their wheels, the driver, and six crates.
     REQUIRE(scene->bodies().size() == 16);
-    const auto rotation_of = [&](std::size_t body) {
-        lks_transform transform{};
-        REQUIRE(lks_body_transform(scene->world(), scene->bodies()[body].id, &transform) == LKS_OK);
-        return transform.rotation;
-    };
-    // Of a hub, in the chassis.
     const auto place_on_chassis = [&](std::size_t hub) {
-        const lks_rotation turned = rotation_of(0);
-        return rotate({-turned.x, -turned.y, -turned.z, turned.w},
+        return rotate(conjugate(transform_of(*scene, 0).rotation),
                       place_of(*scene, hub) - place_of(*scene, 0));
     };
     Vector begin[4];

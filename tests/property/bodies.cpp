@@ -17,7 +17,7 @@ constexpr double g = 9.81;
 
 // Angular momentum per kilogram of a box of these half extents, in world axes.
 Vector momentum(const BodyState& body, const Vector& e) {
-    const lks_rotation back{-body.rotation.x, -body.rotation.y, -body.rotation.z, body.rotation.w};
+    const lks_rotation back = conjugate(body.rotation);
     const Vector w = rotate(back, body.spin);
     const Vector l{w.x * (e.y * e.y + e.z * e.z) / 3, w.y * (e.z * e.z + e.x * e.x) / 3,
                    w.z * (e.x * e.x + e.y * e.y) / 3};
@@ -99,7 +99,7 @@ TEST_CASE("a T of two capsules turns over and over for ten minutes, with its mom
     const Vector inertia{b.y + s.z + steiner, b.z + s.y, b.z + s.z + steiner};
     const auto angular_momentum = [&](const BodyState& state) {
         const lks_rotation& q = state.rotation;
-        const Vector w = rotate({-q.x, -q.y, -q.z, q.w}, state.spin);
+        const Vector w = rotate(conjugate(q), state.spin);
         return rotate(q, {w.x * inertia.x, w.y * inertia.y, w.z * inertia.z});
     };
     REQUIRE(inertia.y < inertia.x); // so that it turns over about x
@@ -126,7 +126,7 @@ TEST_CASE("a T of two capsules turns over and over for ten minutes, with its mom
             greatest = std::max(greatest, energy_of(world));
             drift = std::max(drift, (angular_momentum(state) - start).length() / start.length());
             const lks_rotation& q = state.rotation;
-            const bool is_over = rotate({-q.x, -q.y, -q.z, q.w}, start).dot(start) < 0;
+            const bool is_over = rotate(conjugate(q), start).dot(start) < 0;
             turns += is_over != over ? 1 : 0;
             over = is_over;
         }

@@ -14,7 +14,7 @@ namespace {
 
 // How deep a point is in a bone's shape; less than zero: outside, by about as much.
 double depth(const lks_body_shape& shape, const BodyState& bone, const Vector& point) {
-    const lks_rotation back{-bone.rotation.x, -bone.rotation.y, -bone.rotation.z, bone.rotation.w};
+    const lks_rotation back = conjugate(bone.rotation);
     const Vector p = rotate(back, point - bone.position);
     if (shape.shape == LKS_SHAPE_BOX) {
         const Vector half = metres(shape.half_extents);

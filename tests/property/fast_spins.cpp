@@ -18,7 +18,7 @@ const Vector boxes[] = {{0.5, 0.1, 0.3}, {0.05, 0.4, 0.05}, {0.4, 0.02, 0.4}, {0
 
 // Of one kilogram.
 Vector momentum_of(const BodyState& body, const Vector& extents) {
-    const lks_rotation back{-body.rotation.x, -body.rotation.y, -body.rotation.z, body.rotation.w};
+    const lks_rotation back = conjugate(body.rotation);
     const Vector own = rotate(back, body.spin);
     const Vector square{extents.x * extents.x, extents.y * extents.y, extents.z * extents.z};
     return rotate(body.rotation, Vector{own.x * (square.y + square.z), own.y * (square.z + square.x),

@@ -56,7 +56,7 @@ Worn hang(std::uint32_t substeps, double turn, bool at_one) {
     const Vector behind = metres(frame.position) + rotate(frame.rotation, {0, -0.1, -0.16});
     const lks_object_id cloth = world.add(asset, {fixed(behind.x, behind.y, behind.z), frame.rotation});
     std::vector<lks_attachment_id> attachments;
-    const lks_rotation back = {-frame.rotation.x, -frame.rotation.y, -frame.rotation.z, frame.rotation.w};
+    const lks_rotation back = conjugate(frame.rotation);
     for (const std::uint32_t vertex :
          at_one ? std::vector<std::uint32_t>{0} : std::vector<std::uint32_t>{0, 5}) {
         const Vector at = rotate(back, metres(world.positions(cloth)[vertex]) - metres(frame.position));

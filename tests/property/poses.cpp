@@ -96,7 +96,7 @@ TEST_CASE("what turns from one pose to the next turns on by the same angle a tic
             now.rotation = about(0.6, 0, 0.8, degrees);
             REQUIRE(lks_ragdoll_set_pose(world, &ball, 1, &now, &before) == LKS_OK);
             world.step();
-            const lks_rotation back{-now.rotation.x, -now.rotation.y, -now.rotation.z, now.rotation.w};
+            const lks_rotation back = conjugate(now.rotation);
             const lks_rotation turned = product(state_of(world, ball).rotation, back);
             const double sine = std::hypot(turned.x, turned.y, turned.z);
             const double angle = 2 * std::atan2(sine, turned.w) * 180 / pi;

@@ -15,12 +15,6 @@ using namespace support;
 
 namespace {
 
-constexpr double g = 9.81;
-
-lks_rotation conjugate(const lks_rotation& q) {
-    return {-q.x, -q.y, -q.z, q.w};
-}
-
 class Mechanism {
 public:
     Mechanism(std::uint64_t seed, std::uint32_t substeps, double heaviest)
@@ -52,7 +46,6 @@ public:
 private:
     struct Part {
         lks_body_id body;
-        double mass;
         Vector place;
     };
 
@@ -92,15 +85,18 @@ private:
         def.filter.mask = 0;
         def.kind = index == 0 && hangs_ ? LKS_BODY_KINEMATIC : LKS_BODY_DYNAMIC;
         def.transform.rotation = about(between(-1, 1), between(-1, 1), 1, between(0, 360));
-        const double mass = magnitude(1, heaviest_);
-        def.mass = fixed(mass);
+        def.mass = fixed(magnitude(1, heaviest_));
         if (chance(30)) {
             def.velocity = fixed(between(-3, 3), between(-3, 3), between(-3, 3));
         }
         if (chance(30)) {
             def.angular_velocity = fixed(between(-5, 5), between(-5, 5), between(-5, 5));
         }
-        parts_.push_back({add_body(world_, shape(), fixed(place.x, place.y, place.z), def), mass, place});
+        const lks_body_id body = add_body(world_, shape(), fixed(place.x, place.y, place.z), def);
+        parts_.push_back({body, place});
+        if (def.kind == LKS_BODY_DYNAMIC) {
+            moving_.push_back(body);
+        }
         if (index > 0) {
             join(static_cast<std::size_t>(parent), parts_.size() - 1, place - half);
         }
@@ -140,20 +136,15 @@ private:
         }
     }
 
-    // Kinetic, and of height; springs begin without any.
-    double energy() {
-        double sum = energy_of(world_);
-        for (std::size_t i = hangs_ ? 1 : 0; i < parts_.size(); ++i) {
-            sum += parts_[i].mass * g * state_of(world_, parts_[i].body).position.y;
-        }
-        return sum;
-    }
+    // Springs begin without any.
+    double energy() { return whole_energy(world_, moving_.data(), moving_.size()); }
 
     World world_;
     Random random_;
     double heaviest_;
     bool hangs_ = false;
     std::vector<Part> parts_;
+    std::vector<lks_body_id> moving_;
     std::vector<lks_joint_id> rigid_;
     double begin_ = 0;
     double gained_ = 0;

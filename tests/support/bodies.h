@@ -135,6 +135,11 @@ inline Vector rotate(const lks_rotation& q, const Vector& v) {
     return v + t * w + cross(u, t);
 }
 
+// Of a unit: the way back.
+inline lks_rotation conjugate(const lks_rotation& q) {
+    return {-q.x, -q.y, -q.z, q.w};
+}
+
 inline double mass_of(const World& world, lks_body_id body) {
     lks_fixed mass = 0;
     REQUIRE(lks_body_mass(world, body, &mass) == LKS_OK);
