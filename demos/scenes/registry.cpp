@@ -44,7 +44,7 @@ const std::vector<Entry>& entries() {
           150,
           {57, 130}},
          make_bouncing_balls},
-        {{"cart", "A cart on springs rolls over bumps and into a pile of crates", 300, 150, {40, 118}},
+        {{"cart", "A cart on springs rolls over bumps and into a pile of crates", 160, 150, {40, 118}},
          make_cart},
         {{"ragdoll_stairs", "A mannequin tumbles down a flight of stairs", 300, 240, {50, 230}},
          make_ragdoll_stairs},
