@@ -56,7 +56,7 @@ TEST_CASE("what a system of rows gives solves it") {
     Random random(3);
     double worst = 0;
     for (int round = 0; round < 20000; ++round) {
-        RowSystem system{};
+        RowSystem<CoarseRows> system{};
         system.count = 1 + round % most_rows;
         const Matrix matrix(random, system.count);
         factor(matrix.entries, system);
@@ -87,7 +87,7 @@ TEST_CASE("a row that asks for the same as another pushes nothing, and the other
     for (int i = 0; i < 2; ++i) {
         matrix[i][0] = matrix[i][1] = half;
     }
-    RowSystem system{};
+    RowSystem<CoarseRows> system{};
     system.count = 2;
     factor(matrix, system);
     std::int64_t x[most_rows] = {1000, 1000};

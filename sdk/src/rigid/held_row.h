@@ -24,6 +24,9 @@ struct HeldRow {
 // Radians, World: what is turned by no more is left to rows that go in turn. An eighth of a degree.
 inline constexpr std::int64_t far_turned = world_one / 458;
 
+// What is turned by more is turned back in several steps: a quarter.
+inline constexpr std::int64_t most_turned_back = world_one / 4;
+
 // Of a fixed joint, or of a hinge with its limit.
 inline constexpr std::uint32_t most_held_rows = 3;
 

@@ -7,6 +7,7 @@
 #include "rigid/articulation_joint.h"
 #include "rigid/articulation_walk.h"
 #include "rigid/body_motion.h"
+#include "rigid/exchange.h"
 #include "rigid/joint_limits.h"
 #include "rigid/joint_turns.h"
 #include "rigid/uneven_tree.h"
@@ -17,78 +18,13 @@ namespace {
 using namespace tree_detail;
 using fixed::Vec3;
 
-constexpr int point_rows = 3;
-
-// Radians, World: what is turned by more is turned back in several steps: a quarter.
-constexpr std::int64_t greatest_turn = std::int64_t{1} << (world_fraction_bits - 2);
 // What a limit may be exceeded by for that it need not push.
 constexpr std::int64_t nearly_nothing = world_one / 1000000;
 
 // Where masses are uneven, what turns a body by more about an axis, an eighth of a radian, is left to rows.
 constexpr std::int64_t greatest_uneven_half_turn = std::int64_t{1} << (half_turn_fraction_bits - 4);
 
-// What a push does: a force, and a torque.
-struct Wrench {
-    Vec3 force;
-    Vec3 torque;
-};
-
-Vec3 multiply_mixed(const std::int64_t (&m)[9], const Vec3& v) {
-    return {dot_32({m[0], m[1], m[2]}, v), dot_32({m[3], m[4], m[5]}, v), dot_32({m[6], m[7], m[8]}, v)};
-}
-
-Vec3 multiply_mixed_back(const std::int64_t (&m)[9], const Vec3& v) {
-    return {dot_32({m[0], m[3], m[6]}, v), dot_32({m[1], m[4], m[7]}, v), dot_32({m[2], m[5], m[8]}, v)};
-}
-
-void respond(const ArticulatedInverse& w, const Wrench& push, Vec3& shift, Vec3& turn) {
-    shift = symmetric(w.shift, push.force) + multiply_mixed(w.mixed, push.torque);
-    turn = multiply_mixed_back(w.mixed, push.force) + symmetric(w.turn, push.torque);
-}
-
-std::int64_t along(const Wrench& push, const Vec3& shift, const Vec3& turn) {
-    return plus(dot_32(push.force, shift), dot_32(push.torque, turn));
-}
-
-// W −= (a a^T) / pivot for the column a of L⁻¹Uᵀ.
-void take_out(ArticulatedInverse& w, const Vec3& shift, const Vec3& turn, const Inverse& pivot) {
-    const std::int64_t a[6] = {shift.x, shift.y, shift.z, turn.x, turn.y, turn.z};
-    std::int64_t divided[6];
-    for (int i = 0; i < 6; ++i) {
-        divided[i] = divide(a[i], pivot);
-    }
-    int entry = 0;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = i; j < 3; ++j) {
-            w.shift[entry] = minus(w.shift[entry], lks::multiply_32(divided[i], a[j]));
-            w.turn[entry] = minus(w.turn[entry], lks::multiply_32(divided[3 + i], a[3 + j]));
-            ++entry;
-        }
-        for (int j = 0; j < 3; ++j) {
-            w.mixed[3 * i + j] = minus(w.mixed[3 * i + j], lks::multiply_32(divided[i], a[3 + j]));
-        }
-    }
-}
-
-// Which limits push is exchanged all at once while that makes the wrong ones fewer, and one by one where it
-// doesn't, which comes to an end.
-class Exchange {
-public:
-    // True: all at once.
-    bool is_whole(std::uint32_t wrong) {
-        if (wrong < least_) {
-            least_ = wrong;
-            patience_ = most_patience;
-            return true;
-        }
-        return patience_-- > 0;
-    }
-
-private:
-    static constexpr int most_patience = 3;
-    std::uint32_t least_ = UINT32_MAX;
-    int patience_ = most_patience;
-};
+using Algebra = RowAlgebra<CoarseRows>;
 
 class HeldTree : public ArticulationWalk {
 public:
@@ -105,7 +41,7 @@ public:
             held.row_count = limit_rows(joint, a, b, in_substep_, held.rows, held.row_count);
             for (std::uint32_t i = 0; i < held.row_count; ++i) {
                 HeldRow& row = held.rows[i];
-                row.error = std::clamp(row.error, -greatest_turn, greatest_turn);
+                row.error = std::clamp(row.error, -most_turned_back, most_turned_back);
                 held.pushes[i] = !row.is_limit() || row.error < 0 || row.push > 0;
                 held.child_axes[i] = axis_in_units(part.child, joint, row.axis);
                 held.parent_axes[i] = axis_in_units(part.parent, joint, row.axis);
@@ -140,13 +76,12 @@ public:
 
     // False: masses are uneven and somebody would turn far, and nothing was done.
     bool solve() {
-        constexpr int most_passes = 24;
         Exchange exchange;
-        for (int pass = 0; pass < most_passes; ++pass) {
+        for (int pass = 0; pass < Exchange::most_passes; ++pass) {
             factor();
             find_pushes();
             const std::uint32_t wrong = count_wrong();
-            if (wrong == 0 || pass + 1 == most_passes) {
+            if (wrong == 0 || pass + 1 == Exchange::most_passes) {
                 break;
             }
             turn_round(exchange.is_whole(wrong) ? wrong : 1);
@@ -238,9 +173,7 @@ private:
     // Of a unit push, row by row; how many.
     static int find_wrenches(const HeldJoint& held, const Vec3& lever, const Vec3 (&axes)[most_held_rows],
                              Wrench (&wrenches)[most_rows]) {
-        wrenches[0] = {{tree_one, 0, 0}, {0, lever.z, -lever.y}};
-        wrenches[1] = {{0, tree_one, 0}, {-lever.z, 0, lever.x}};
-        wrenches[2] = {{0, 0, tree_one}, {lever.y, -lever.x, 0}};
+        Algebra::find_point_wrenches(lever, wrenches);
         int count = point_rows;
         for_each_pushing(held, [&](int row, std::uint32_t i) {
             wrenches[row] = {{0, 0, 0}, axes[i]};
@@ -254,14 +187,14 @@ private:
             [](Body& body, ArticulatedBody& part) { part.inverse = own_inverse(body, part.share); });
         for_each_taut([](RopeLoad& load, ArticulatedBody& body) {
             const Wrench pull = pull_of(load);
-            respond(body.inverse, pull, load.column_shift, load.column_turn);
-            load.inverse = invert_pivot(along(pull, load.column_shift, load.column_turn));
-            take_out(body.inverse, load.column_shift, load.column_turn, load.inverse);
+            Algebra::respond(body.inverse, pull, load.column_shift, load.column_turn);
+            load.inverse = invert_pivot(Algebra::along(pull, load.column_shift, load.column_turn));
+            Algebra::take_out(body.inverse, load.column_shift, load.column_turn, load.inverse);
         });
         for_each_held_back([this](const ArticulatedJoint& part, const Joint& joint, HeldJoint& held) {
             factor_joint(part, joint, held);
             if (&part != &scene_.tree_joints[range_.first_joint]) {
-                fold_in(scene_.articulated[part.parent].inverse, held);
+                Algebra::fold_in(scene_.articulated[part.parent].inverse, held);
             }
         });
     }
@@ -271,10 +204,10 @@ private:
         Wrench wrenches[most_rows];
         if (part.child_moves) {
             held.system.count = find_wrenches(held, part.child_lever, held.child_axes, wrenches);
-            add_motions(scene_.articulated[part.child].inverse, wrenches, held, d);
+            Algebra::add_motions(scene_.articulated[part.child].inverse, wrenches, held, d);
         }
         held.system.count = find_wrenches(held, part.parent_lever, held.parent_axes, wrenches);
-        add_motions(scene_.articulated[part.parent].inverse, wrenches, held, d);
+        Algebra::add_motions(scene_.articulated[part.parent].inverse, wrenches, held, d);
         // Where two rows ask for the same, or for what nothing is left to move for, neither pushes without
         // bounds: by a millionth of what their bones by themselves give way they are soft.
         for_each_pushing(
@@ -291,31 +224,6 @@ private:
     // How a torque about an axis turns the body by itself, about that axis.
     std::int64_t own_turn_about(std::uint32_t body, const Vec3& axis) const {
         return dot_32(axis, own_turn(scene_.bodies[body], scene_.articulated[body].share, axis));
-    }
-
-    // Adds how rows move by pushes in each of them; leaves the columns of the body that comes last.
-    static void add_motions(const ArticulatedInverse& inverse, const Wrench (&wrenches)[most_rows],
-                            HeldJoint& held, std::int64_t (&d)[most_rows][most_rows]) {
-        for (int j = 0; j < held.system.count; ++j) {
-            respond(inverse, wrenches[j], held.column_shift[j], held.column_turn[j]);
-            for (int i = j; i < held.system.count; ++i) {
-                d[i][j] = plus(d[i][j], along(wrenches[i], held.column_shift[j], held.column_turn[j]));
-            }
-        }
-    }
-
-    static void fold_in(ArticulatedInverse& inverse, const HeldJoint& held) {
-        Vec3 shift[most_rows];
-        Vec3 turn[most_rows];
-        for (int i = 0; i < held.system.count; ++i) {
-            shift[i] = held.column_shift[i];
-            turn[i] = held.column_turn[i];
-            for (int k = 0; k < i; ++k) {
-                shift[i] = shift[i] - multiply_32(held.system.lower[i][k], shift[k]);
-                turn[i] = turn[i] - multiply_32(held.system.lower[i][k], turn[k]);
-            }
-            take_out(inverse, shift[i], turn[i], held.system.pivots[i]);
-        }
     }
 
     // A turning push about the axis of a row, b against a, on the child and the parent.
@@ -361,7 +269,7 @@ private:
             part.torque = {0, 0, 0};
         });
         for_each_taut([](RopeLoad& load, ArticulatedBody& body) {
-            load.push = divide(minus(0, along(pull_of(load), body.shift, body.turn)), load.inverse);
+            load.push = divide(minus(0, Algebra::along(pull_of(load), body.shift, body.turn)), load.inverse);
             body.shift = body.shift + multiply_32(load.push, load.column_shift);
             body.turn = body.turn + multiply_32(load.push, load.column_turn);
         });
@@ -402,27 +310,13 @@ private:
         for_each_pushing(held, [&](int row, std::uint32_t i) {
             left[row] = plus(row_error(part, joint, held.rows[i]), turned(part, held, i));
         });
-        lks::solve(held.system, left);
-        for (int row = 0; row < held.system.count; ++row) {
-            held.push[row] = std::clamp(minus(0, left[row]), -greatest_point_push(), greatest_point_push());
-            parent.shift = parent.shift - multiply_32(held.push[row], held.column_shift[row]);
-            parent.turn = parent.turn - multiply_32(held.push[row], held.column_turn[row]);
-        }
+        Algebra::fold_rows(left, greatest_point_push(), held, parent);
     }
 
     // With what the joints towards the root push the parent.
     void hand_down(const ArticulatedJoint& part, HeldJoint& held) {
         ArticulatedBody& parent = scene_.articulated[part.parent];
-        std::int64_t more[most_rows];
-        for (int row = 0; row < held.system.count; ++row) {
-            more[row] = plus(dot_32(held.column_shift[row], parent.force),
-                             dot_32(held.column_turn[row], parent.torque));
-        }
-        lks::solve(held.system, more);
-        for (int row = 0; row < held.system.count; ++row) {
-            held.push[row] =
-                std::clamp(plus(held.push[row], more[row]), -greatest_point_push(), greatest_point_push());
-        }
+        Algebra::push_more(greatest_point_push(), held, parent);
         const Vec3 push = point_push(held);
         add_force(parent, part.parent_lever, -push);
         if (part.child_moves) {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "rigid/held_row.h"
-#include "rigid/row_system.h"
+#include "rigid/row_joint.h"
 
 namespace lks {
 
-struct HeldJoint {
+struct HeldJoint : RowJoint<CoarseRows> { // its points' rows, and those that push
     HeldRow rows[most_held_rows];
     bool pushes[most_held_rows]; // or is a limit that is not reached
     std::uint32_t row_count;
@@ -14,11 +14,6 @@ struct HeldJoint {
     fixed::Vec3 child_axes[most_held_rows]; // times the reach, in the body's unit
     fixed::Vec3 parent_axes[most_held_rows];
     fixed::Vec3 error; // of the points: child less parent, World
-    // Of the rows of the points, and of those that push:
-    fixed::Vec3 column_shift[most_rows]; // what a push does to the parent
-    fixed::Vec3 column_turn[most_rows];
-    RowSystem system;
-    std::int64_t push[most_rows]; // on the child, World, in the tree's unit
 };
 
 } // namespace lks

@@ -1,10 +1,10 @@
 #include "rigid/uneven_tree.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "rigid/articulation_joint.h"
 #include "rigid/articulation_walk.h"
+#include "rigid/fine_algebra.h"
 
 namespace lks {
 namespace {
@@ -16,49 +16,6 @@ constexpr int bits = uneven_fraction_bits;
 
 // Of a body in a solve, World, 256 m: what is thrown about stays within the world.
 constexpr std::int64_t greatest_shift = std::int64_t{1} << (world_fraction_bits + 8);
-
-// One factor of 40 fraction bits, the other and the result in any format; wraps.
-std::int64_t multiply_40(std::int64_t a, std::int64_t b) {
-    return static_cast<std::int64_t>((fixed::multiply_signed(a, b) >> bits).lo);
-}
-
-Vec3 multiply_40(std::int64_t a, const Vec3& v) {
-    return {multiply_40(a, v.x), multiply_40(a, v.y), multiply_40(a, v.z)};
-}
-
-std::int64_t dot_40(const Vec3& a, const Vec3& b) {
-    return plus(plus(multiply_40(a.x, b.x), multiply_40(a.y, b.y)), multiply_40(a.z, b.z));
-}
-
-// What is no more than roundings lets nothing be pushed.
-FineInverse invert_fine(std::int64_t pivot) {
-    constexpr std::int64_t least = 1 << 5;
-    if (pivot < least) {
-        return {0, 0};
-    }
-    // pivot = m / 2^zeros with m from 2^62 on; the reciprocal is 2^124 / m.
-    const int zeros = std::countl_zero(static_cast<std::uint64_t>(pivot)) - 1;
-    const auto m = static_cast<std::uint64_t>(pivot) << zeros;
-    const auto reciprocal =
-        static_cast<std::int64_t>(fixed::divide(fixed::UInt128{std::uint64_t{1} << 60, 0}, m).quotient.lo);
-    return {reciprocal, 124 - bits - zeros};
-}
-
-// To the nearest; saturates.
-std::int64_t divide(std::int64_t value, const FineInverse& inverse) {
-    return fixed::multiply_shift(value, inverse.mantissa, inverse.shift);
-}
-
-ArticulatedInverse fine_inverse(const Body& body, std::int64_t share) {
-    ArticulatedInverse inverse{};
-    inverse.shift[0] = inverse.shift[3] = inverse.shift[5] = share;
-    const SymmetricMatrix& m = body.world_inverse;
-    const std::int32_t entries[6] = {m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
-    for (int i = 0; i < 6; ++i) {
-        inverse.turn[i] = fixed::multiply_shift(share, entries[i], 30 - body.inverse_shift);
-    }
-    return inverse;
-}
 
 void factor_points(const std::int64_t (&d)[6], UnevenJoint& joint) {
     joint.pivots[0] = invert_fine(d[0]);
@@ -107,8 +64,9 @@ public:
     UnevenTree(RigidScene& scene, const ArticulatedTree& range) : ArticulationWalk(scene, range) {}
 
     void factor(bool springs_give) {
-        for_each_body(
-            [](Body& body, ArticulatedBody& part) { part.inverse = fine_inverse(body, part.fine_share); });
+        for_each_body([](Body& body, ArticulatedBody& part) {
+            part.inverse = own_fine_inverse(body, part.fine_share);
+        });
         for_each_joint_back([&](ArticulatedJoint& part, const Joint& joint) {
             UnevenJoint& fine = uneven_joint(scene_, part);
             std::int64_t d[6] = {};
