@@ -1,4 +1,6 @@
-// A cart whose wheels hang on springs rolls over bumps, one side after the other, and into a pile of crates.
+// A cart rolls over bumps, one side after the other, and into a pile of crates. Its rear wheels hang on
+// springs, its front ones on two arms each, which close loops, with a rod that keeps them straight and a
+// spring between.
 #include "scenes/scene_list.h"
 #include "scenes/time_curves.h"
 
@@ -9,6 +11,7 @@ constexpr std::int64_t start = -4200; // of the cart's middle, along x
 constexpr std::int64_t speed = 4600;
 constexpr std::int64_t chassis_height = 560;
 constexpr std::int64_t wheel_radius = 260;
+constexpr std::int64_t front = 600;
 
 // Local y along z.
 lks_rotation along_z() {
@@ -23,9 +26,10 @@ private:
     void configure(lks_world_def& def) override { def.substeps = 8; }
 
     bool build() override {
-        camera_ = {{-1.6f, 2.2f, 6.4f}, {-0.4f, 0.3f, 0.0f}, 40.0f, {0.4f, 0.85f, 0.5f}};
+        camera_ = {{3.9f, 1.9f, 5.4f}, {-0.1f, 0.35f, 0.1f}, 42.0f, {0.4f, 0.85f, 0.5f}};
         return add_ground(rgb(0x9aa08f)) && add_bump(-2000, 700) && add_bump(-900, -700) &&
-               add_bump(200, 0) && add_chassis() && add_wheels() && add_driver() && add_crates();
+               add_bump(200, 0) && add_chassis() && add_wheels() && add_driver() && add_crates() &&
+               add_arms(-1) && add_arms(1);
     }
 
     // A bar across the way, the most of which is in the ground.
@@ -69,8 +73,9 @@ private:
             box(millimetres(0, 0, 0), millimetres(820, 70, 300), 500),
             box(millimetres(-260, 150, 0), millimetres(460, 80, 300), 300),
             box(millimetres(-640, 330, 0), millimetres(70, 200, 260), 200),
+            box(millimetres(front, -190, 0), millimetres(90, 140, 110), 300),
         };
-        return add_part("chassis", shapes, 3, millimetres(start, chassis_height, 0), rgb(0xb5402f), chassis_);
+        return add_part("chassis", shapes, 4, millimetres(start, chassis_height, 0), rgb(0xb5402f), chassis_);
     }
 
     bool join(lks_joint_def def, lks_body_id a, lks_body_id b, const lks_vec3& on_a, const lks_vec3& on_b) {
@@ -91,9 +96,12 @@ private:
         return def;
     }
 
+    // On a spring, or, in front, on what add_arms adds.
     bool add_wheel(std::int64_t x, std::int64_t z) {
-        const lks_body_shape hub = box({}, millimetres(70, 50, 90), 3000);
-        lks_body_id axle{};
+        const bool in_front = x == front;
+        const lks_body_shape hub =
+            box({}, in_front ? millimetres(40, 110, 40) : millimetres(70, 50, 90), 3000);
+        lks_body_id& axle = hubs_[z > 0 ? 1 : 0];
         const std::int64_t inner = z - (z > 0 ? 150 : -150);
         if (!add_part("hub", &hub, 1, millimetres(start + x, wheel_radius, inner), rgb(0x4a4a4a), axle)) {
             return false;
@@ -112,13 +120,52 @@ private:
         lks_joint_def hinge = lks_default_joint_def();
         hinge.kind = LKS_JOINT_HINGE;
         hinge.frame_a.rotation = hinge.frame_b.rotation = along_z();
-        return join(spring(LKS_FIXED_RATIO(8, 100000), 500), chassis_, axle,
-                    millimetres(x, wheel_radius - chassis_height, inner), {}) &&
+        return (in_front || join(spring(LKS_FIXED_RATIO(8, 100000), 500), chassis_, axle,
+                                 millimetres(x, wheel_radius - chassis_height, inner), {})) &&
                join(hinge, axle, wheel, millimetres(0, 0, z - inner), {});
     }
 
     bool add_wheels() {
-        return add_wheel(-600, -560) && add_wheel(-600, 560) && add_wheel(600, -560) && add_wheel(600, 560);
+        return add_wheel(-600, -560) && add_wheel(-600, 560) && add_wheel(front, -560) &&
+               add_wheel(front, 560);
+    }
+
+    // From the chassis to above or below the hub's middle; hinges along x, balls at the hub.
+    bool add_arm(std::int64_t side, std::int64_t height, lks_body_id& id) {
+        constexpr std::int64_t in = 110, out = 410;
+        const lks_body_shape shape = box({}, millimetres(45, 14, (out - in) / 2 - 20), 1500);
+        const std::int64_t middle = (in + out) / 2;
+        const std::int64_t up = wheel_radius + height;
+        lks_joint_def hinge = lks_default_joint_def();
+        hinge.kind = LKS_JOINT_HINGE;
+        hinge.frame_a.rotation = hinge.frame_b.rotation =
+            turn_about({0, 0, LKS_FIXED_ONE}, LKS_FIXED_RATIO(-1, 4));
+        return add_part("arm", &shape, 1, millimetres(start + front, up, side * middle), rgb(0xd9b13b), id) &&
+               join(hinge, chassis_, id, millimetres(front, up - chassis_height, side * in),
+                    millimetres(0, 0, side * (in - middle))) &&
+               join(lks_default_joint_def(), id, hubs_[side > 0 ? 1 : 0],
+                    millimetres(0, 0, side * (out - middle)), millimetres(0, height, 0));
+    }
+
+    static lks_joint_def rod(std::int64_t length) {
+        lks_joint_def def = lks_default_joint_def();
+        def.kind = LKS_JOINT_DISTANCE;
+        def.distance_min = def.distance_max = LKS_FIXED_RATIO(length, 1000);
+        return def;
+    }
+
+    bool add_arms(std::int64_t side) {
+        lks_body_id upper{}, lower{};
+        // From the chassis above to the lower arm's end: 3-4-5.
+        lks_joint_def strut = rod(300);
+        strut.compliance = LKS_FIXED_RATIO(5, 100000);
+        strut.damping = LKS_FIXED(900);
+        return add_arm(side, 80, upper) && add_arm(side, -80, lower) &&
+               join(rod(300), chassis_, hubs_[side > 0 ? 1 : 0],
+                    millimetres(front - 60, wheel_radius - chassis_height, side * 110),
+                    millimetres(-60, 0, 0)) &&
+               join(strut, chassis_, lower, millimetres(front, 420 - chassis_height, side * 200),
+                    millimetres(0, 0, side * 120));
     }
 
     // A head that nods on a soft neck.
@@ -156,6 +203,7 @@ private:
     }
 
     lks_body_id chassis_{};
+    lks_body_id hubs_[2]{}; // those of the last pair of wheels
 };
 
 } // namespace

@@ -63,6 +63,11 @@ struct MovingBody {
     Scalar load = 0;    // (hω)² of its swing under what its joints pull: as heavily as that it turns
     Scalar found_load = 0;
 
+    // About how far out its mass is.
+    Scalar reach() const {
+        return std::sqrt((inertia.rows[0].x + inertia.rows[1].y + inertia.rows[2].z) * inverse_mass);
+    }
+
     void follow_rotation() { world_inverse = rotation.around(inverse_inertia); }
     // A light link under a great tension swings faster than a substep can follow: beyond that it turns as if
     // it were heavier.

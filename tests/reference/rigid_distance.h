@@ -48,6 +48,36 @@ public:
         row.apply(more, a, b);
     }
 
+    // What a solve of several at once (rigid_closures.h) is to bring to zero along the way from a to b, in a
+    // substep or without speed. `side`: -1: a rope, which pushes less than zero; 1: a strut; 0: a rod.
+    struct Left {
+        Vec way;
+        Scalar left, pushed;
+        int side;
+    };
+    Left left_of(const Vec& offset, const Vec& begin, const Vec& push, bool in_substep) const {
+        const Scalar length = offset.length();
+        const Vec way = length == 0 ? Vec{1, 0, 0} : offset * (1 / length);
+        const auto side_of = [&](Scalar least, Scalar most, Scalar pushed) {
+            return is_rod()                          ? 0
+                   : pushed != 0                     ? (pushed < 0 ? -1 : 1)
+                   : most - length <= length - least ? -1
+                                                     : 1;
+        };
+        if (!in_substep && softness_.is_soft()) {
+            return {way, length - kept_, 0, 0};
+        }
+        const Scalar pushed = in_substep ? way.dot(push) : Scalar(0);
+        const int side = in_substep ? side_of(least(), most(), pushed) : side_of(min_, max_, 0);
+        const Scalar to = side > 0 ? (in_substep ? least() : min_) : (in_substep ? most() : max_);
+        return {way, in_substep ? softness_.left(length - to, way.dot(offset - begin), pushed) : length - to,
+                pushed, side};
+    }
+    // What is undone leaves it as long as it is.
+    void hold(const Vec& offset) { kept_ = offset.length(); }
+    // What it is off by when a substep begins is kept in it.
+    void keep(const Vec& offset) { kept_ = softness_.is_soft() ? Scalar(0) : error_of(offset.length()); }
+
     // What was kept, without giving speed.
     void undo(Body& a, const Vec& lever_a, Body& b, const Vec& lever_b, const Vec& offset) const {
         const Row row(*this, a, lever_a, b, lever_b, offset);

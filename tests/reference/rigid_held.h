@@ -25,10 +25,12 @@ struct HeldRow {
 };
 
 // What is to be pushed more: row by row of a dense system of `points` rows and those of turns behind them,
-// whose matrix is symmetric. A limit that would pull has nothing left of what it has pushed.
+// whose matrix is symmetric. A limit that would pull has nothing left of what it has pushed. `softness`: what
+// rows are softened by, of which what that leaves is solved for again, four times.
 template <typename Scalar>
 std::vector<Scalar> solve_held(const std::vector<Scalar>& matrix, const std::vector<Scalar>& errors,
-                               std::size_t points, const std::vector<HeldRow<Scalar>>& rows) {
+                               std::size_t points, const std::vector<HeldRow<Scalar>>& rows,
+                               const std::vector<Scalar>& softness = {}) {
     const std::size_t size = errors.size();
     std::vector<bool> pushes(size, true);
     for (std::size_t i = points; i < size; ++i) {
@@ -54,18 +56,23 @@ std::vector<Scalar> solve_held(const std::vector<Scalar>& matrix, const std::vec
             return sum;
         };
         std::vector<Scalar> part;
-        std::vector<Scalar> wanted;
         for (const std::size_t i : active) {
-            wanted.push_back(-moved(i));
             for (const std::size_t j : active) {
-                part.push_back(matrix[i * size + j]);
+                part.push_back(matrix[i * size + j] +
+                               (i == j && !softness.empty() ? softness[i] : Scalar(0)));
             }
         }
         SymmetricSystem<Scalar> system;
         system.factor(active.size(), std::move(part));
-        system.solve(wanted);
-        for (std::size_t k = 0; k < active.size(); ++k) {
-            found[active[k]] = wanted[k];
+        for (int round = 0; round < (softness.empty() ? 1 : 5); ++round) {
+            std::vector<Scalar> wanted;
+            for (const std::size_t i : active) {
+                wanted.push_back(-moved(i));
+            }
+            system.solve(wanted);
+            for (std::size_t k = 0; k < active.size(); ++k) {
+                found[active[k]] += wanted[k];
+            }
         }
         std::vector<std::size_t> wrong;
         for (std::size_t i = size; i-- > points;) {

@@ -37,7 +37,7 @@ public:
     // Its motor, or a spring.
     bool does_work() const {
         return drive_.is_motor() || points_softness_.is_soft() || turn_softness_.is_soft() ||
-               limits.is_soft();
+               (limits.is_soft() && !turns_in_tree);
     }
 
     // Turns without any resistance, but for limits.
@@ -54,6 +54,9 @@ public:
     std::size_t a, b;
     bool in_tree = false; // its points are solved there
     bool in_held_tree = false;
+    bool closes = false;        // a loop: it is solved behind its tree (rigid_closures.h)
+    bool turns_in_tree = false; // what it turns is, too
+    bool limits_in_tree = false;
     JointLimits<Scalar> limits;
     // Of the substep.
     Vec start;            // what the points are to keep apart
@@ -66,14 +69,34 @@ public:
         push = in_tree ? Vec{} : push;
         begin_ = offset(body_a, body_b);
         start = keeps_push() ? begin_ : Vec{};
-        distance_.begin(body_a, body_a.rotation * point_a_, body_b, body_b.rotation * point_b_, begin_, push);
+        if (in_tree) {
+            distance_.keep(begin_);
+        } else {
+            distance_.begin(body_a, body_a.rotation * point_a_, body_b, body_b.rotation * point_b_, begin_,
+                            push);
+        }
         turn_start_ = keeps_turn() ? turned_apart(body_a, body_b) : Vec{};
         limits.begin(body_a, body_b);
         drive_.begin(body_a, body_b);
     }
 
     // Trees are of these.
-    bool may_be_in_tree() const { return !is_distance() && !turn_softness_.is_soft(); }
+    bool may_be_in_tree() const { return !is_distance() && has_rigid_turns(); }
+    bool has_rigid_turns() const { return !turn_softness_.is_soft(); }
+    bool is_distance() const { return kind_ == LKS_JOINT_DISTANCE; }
+    // Where it closes a loop.
+    std::size_t closing_rows() const {
+        return is_distance() ? 1 : kind_ == LKS_JOINT_FIXED ? 6 : kind_ == LKS_JOINT_HINGE ? 5 : 3;
+    }
+    typename JointDistance<Scalar>::Left left_of_distance(const Body& body_a, const Body& body_b,
+                                                          bool in_substep) const {
+        return distance_.left_of(offset(body_a, body_b), begin_, push, in_substep);
+    }
+    // What is undone strains no spring.
+    void hold_spring(const Body& body_a, const Body& body_b) {
+        start = offset(body_a, body_b);
+        distance_.hold(start);
+    }
     bool has_soft_points() const { return points_softness_.is_soft(); }
     Scalar points_give() const { return points_softness_.added; } // by a push of one
     // What a tree's solve is to bring to zero in a substep.
@@ -106,7 +129,7 @@ public:
 
     // After the prediction.
     void prepare(const Body& body_a, const Body& body_b) {
-        limits.prepare();
+        limits.prepare(limits_in_tree);
         drive_.prepare(body_a);
         push = keeps_push() ? push : Vec{};
         if (!is_distance() && (!in_tree || drive_.is_motor())) {
@@ -117,7 +140,7 @@ public:
         }
         if (holds_turn()) {
             factor_turning(body_a, body_b);
-            turn_ = keeps_turn() ? turn_ : Vec{};
+            turn_ = keeps_turn() && !turns_in_tree ? turn_ : Vec{};
             if (kind_ == LKS_JOINT_HINGE) {
                 const Vec u = hinge_axis(body_a);
                 turn_ = turn_ - u * u.dot(turn_);
@@ -177,7 +200,9 @@ public:
         }
         drive_.project(body_a, body_b);
         project_turn(body_a, body_b);
-        limits.project(body_a, body_b);
+        if (!limits_in_tree) {
+            limits.project(body_a, body_b);
+        }
         if (!in_tree) {
             project_points(body_a, body_b);
         }
@@ -243,7 +268,6 @@ private:
                (inverse.rows[0].x + inverse.rows[1].y + inverse.rows[2].z - along.dot(inverse * along));
     }
 
-    bool is_distance() const { return kind_ == LKS_JOINT_DISTANCE; }
     bool holds_turn() const { return kind_ == LKS_JOINT_HINGE || kind_ == LKS_JOINT_FIXED; }
     bool keeps_turn() const { return !turn_softness_.is_soft(); }
 
@@ -263,7 +287,7 @@ private:
     }
 
     void project_turn(Body& body_a, Body& body_b) {
-        if (holds_turn()) {
+        if (holds_turn() && !turns_in_tree) {
             turn_ = turn_ + turn_back(body_a, body_b, left_to_turn(body_a, body_b));
         }
     }

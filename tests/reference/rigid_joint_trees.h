@@ -19,6 +19,7 @@ struct JointTree {
     std::vector<std::size_t> joints;
     bool held = false;              // by one that does not move
     bool springs = false;           // in the points of some
+    bool closed = false;            // by joints that close loops: solved with them (rigid_closures.h)
     SymmetricSystem<Scalar> points; // at the predicted pose
 };
 
@@ -34,8 +35,8 @@ public:
     explicit JointTrees(RigidParts<Scalar>& parts) : bodies_(parts.bodies), joints_(parts.joints) {}
 
     // Distances and what has soft turns are left out, and so are joints that close loops, the soft ones
-    // rather than the rigid, and those of trees that particles are attached to and no joint holds. What is
-    // held rigidly at several places has no held tree.
+    // rather than the rigid, and those of trees that particles are attached to and no joint holds. One joint
+    // holds a tree at what does not move.
     void find() {
         std::vector<std::size_t> roots(bodies_.size());
         std::iota(roots.begin(), roots.end(), std::size_t{0});
@@ -46,6 +47,7 @@ public:
                 }
             }
         }
+        choose_anchors(roots);
         for (std::size_t root = 0; root < bodies_.size(); ++root) {
             if (roots[root] != root) {
                 continue;
@@ -55,22 +57,16 @@ public:
             bool attached = false;
             for_each_body(tree,
                           [&](const Body& body) { attached = attached || (body.moves && body.attached); });
-            int rigid_holds = 0;
-            int soft_holds = 0;
             for (const std::size_t i : tree.joints) {
-                const bool soft = joints_[i].has_soft_points();
-                tree.springs = tree.springs || soft;
-                if (bodies_[joints_[i].a].moves != bodies_[joints_[i].b].moves) {
-                    ++(soft ? soft_holds : rigid_holds);
-                }
+                tree.springs = tree.springs || joints_[i].has_soft_points();
+                tree.held = tree.held || is_anchor(joints_[i]);
             }
-            if (attached && rigid_holds + soft_holds == 0) {
+            if (attached && !tree.held) {
                 for (const std::size_t i : tree.joints) {
                     joints_[i].in_tree = false;
                 }
                 continue;
             }
-            tree.held = rigid_holds == 1 || (rigid_holds == 0 && soft_holds != 0);
             for (const std::size_t i : tree.joints) {
                 joints_[i].in_held_tree = tree.held;
             }
@@ -82,6 +78,14 @@ public:
 
     auto begin() const { return trees_.begin(); }
     auto end() const { return trees_.end(); }
+    auto begin() { return trees_.begin(); }
+    auto end() { return trees_.end(); }
+    // Of a tree.
+    bool holds(std::size_t body) const {
+        return std::any_of(joints_.begin(), joints_.end(), [body](const Joint& joint) {
+            return joint.in_tree && (joint.a == body || joint.b == body);
+        });
+    }
 
     // J·M⁻¹·Jᵀ of the joints' points, at the predicted pose.
     void factor_points() {
@@ -141,7 +145,9 @@ public:
     }
     void solve_points() {
         for (const Tree& tree : trees_) {
-            solve_points(tree, true);
+            if (!tree.closed) {
+                solve_points(tree, true);
+            }
         }
     }
 
@@ -212,11 +218,27 @@ public:
     }
 
 private:
+    bool is_anchor(const Joint& joint) const { return bodies_[joint.a].moves != bodies_[joint.b].moves; }
+
+    // Rather a rigid one.
+    void choose_anchors(const std::vector<std::size_t>& roots) {
+        std::vector<bool> anchored(bodies_.size());
+        for (const bool soft : {false, true}) {
+            for (Joint& joint : joints_) {
+                const std::size_t root = roots[bodies_[joint.a].moves ? joint.a : joint.b];
+                if (joint.has_soft_points() == soft && joint.may_be_in_tree() && is_anchor(joint) &&
+                    !anchored[root]) {
+                    joint.in_tree = anchored[root] = true;
+                }
+            }
+        }
+    }
+
     // Unless it closes a loop.
     void choose(Joint& joint, std::vector<std::size_t>& roots) const {
         const bool joins = bodies_[joint.a].moves && bodies_[joint.b].moves;
-        joint.in_tree = joint.may_be_in_tree() && !(joins && roots[joint.a] == roots[joint.b]);
-        if (joint.in_tree && joins) {
+        joint.in_tree = joint.may_be_in_tree() && joins && roots[joint.a] != roots[joint.b];
+        if (joint.in_tree) {
             const auto [root, other] = std::minmax(roots[joint.a], roots[joint.b]);
             std::replace(roots.begin(), roots.end(), std::size_t{other}, std::size_t{root});
         }

@@ -82,9 +82,9 @@ public:
         return aim;
     }
 
-    // Soft ones begin each substep anew.
-    void prepare() {
-        if (softness_.is_soft()) {
+    // Soft ones begin each substep anew, and those that are solved with a tree.
+    void prepare(bool in_tree) {
+        if (softness_.is_soft() || in_tree) {
             swing_push_ = twist_push_ = 0;
         }
     }

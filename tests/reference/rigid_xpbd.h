@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "reference/rigid_carried_pushes.h"
+#include "reference/rigid_closures.h"
 #include "reference/rigid_figure_overlaps.h"
 #include "reference/rigid_free_figures.h"
 #include "reference/rigid_free_motion.h"
@@ -64,6 +65,7 @@ public:
         }
         parts_.find_figures();
         trees_.find();
+        closures_.find();
     }
 
     void tick(int count = 1) {
@@ -170,6 +172,7 @@ private:
         }
         parts_.begin_substep(number);
         trees_.factor_points();
+        closures_.factor();
         contact_moves_.resize(bodies_.size());
         carry_pushes_on();
         for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
@@ -189,9 +192,11 @@ private:
         free_.finish_substep(number);
         restore_speeds();
         parts_.for_each_joint([this](const Joint& joint, Body& a, Body& b) {
-            if (!joint.in_tree) {
+            if (!joint.in_tree || joint.closes) {
                 joint.undo_turn(a, b);
-                joint.undo_points(a, b, parts_.is_pinned(parts_.figure_of(joint)));
+                if (!joint.in_tree) {
+                    joint.undo_points(a, b, parts_.is_pinned(parts_.figure_of(joint)));
+                }
                 a.settle();
                 b.settle();
             }
@@ -209,6 +214,7 @@ private:
                 trees_.undo_errors(tree);
             }
         }
+        closures_.undo_errors();
         for (Body& body : bodies_) {
             body.normalise();
         }
@@ -271,7 +277,7 @@ private:
         };
         const auto solve = [&] {
             for (const JointTree<Scalar>& tree : trees_) {
-                if (!take(parts_.figure_of(joints_[tree.joints.front()]))) {
+                if (tree.closed || !take(parts_.figure_of(joints_[tree.joints.front()]))) {
                     continue;
                 }
                 if (with_turns && tree.held) {
@@ -280,6 +286,7 @@ private:
                     trees_.solve_points(tree, true);
                 }
             }
+            closures_.solve(take);
         };
         std::for_each(joints_.begin(), joints_.end(), turn);
         solve();
@@ -349,10 +356,15 @@ private:
             contact.add_pushes(false, contact_moves_[contact.b]);
         }
         apply_contact_moves();
-        trees_.solve_points();
+        solve_all();
         if (carried_.scale()) {
-            trees_.solve_points();
+            solve_all();
         }
+    }
+
+    void solve_all() {
+        trees_.solve_points();
+        closures_.solve([](std::size_t) { return true; });
     }
 
     Settings settings_;
@@ -366,6 +378,7 @@ private:
     std::vector<Contact>& contacts_ = parts_.contacts;
     JointTrees<Scalar> trees_{parts_};
     HeldTrees<Scalar> held_{parts_, trees_};
+    JointClosures<Scalar> closures_{parts_, trees_};
     CarriedPushes<Scalar> carried_;
     FreeFigures<Scalar> free_{parts_, Vec(settings_.gravity), rate_, settings_.substeps};
     std::vector<Move> contact_moves_; // of a contact sweep, by body

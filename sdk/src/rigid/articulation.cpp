@@ -4,6 +4,7 @@
 
 #include "collide/saturation.h"
 #include "rigid/articulation_joint.h"
+#include "rigid/articulation_passes.h"
 #include "rigid/articulation_walk.h"
 #include "rigid/body_motion.h"
 #include "rigid/held_tree.h"
@@ -140,15 +141,15 @@ public:
         for_each_body([this](const Body& body, ArticulatedBody& part) {
             part.shift = part.turn = part.force = part.torque = {0, 0, 0};
             if (range_.is_held) {
-                part.turn = turn_by_itself(body, part);
+                part.turn = own_turn_in_tree(body, range_, part, part.carried_torque);
             }
         });
         for_each_joint_back([&](ArticulatedJoint& part, const Joint& joint) {
             const Vec3 apart = error(joint, body_a(joint), body_b(joint));
-            fold_error(part, part.child_is_a ? -apart : apart);
+            fold_error(scene_, range_, part, part.child_is_a ? -apart : apart);
         });
         for_each_joint([&](ArticulatedJoint& part, Joint& joint) {
-            const Vec3 push = range_.is_uneven ? push_uneven(scene_, range_, part) : push_of(part);
+            const Vec3 push = push_down(scene_, range_, part);
             use(joint, multiply_32(part.pair_share, part.child_is_a ? -push : push));
         });
         for_each_body([this](Body& body, ArticulatedBody& part) {
@@ -156,7 +157,7 @@ public:
                 part.torque = part.torque + part.carried_torque;
                 part.carried_torque = {0, 0, 0};
             }
-            apply(body, range_.is_uneven ? move_uneven(body, part) : move_of(body, part.share, part));
+            apply(body, move_in_tree(body, range_, part));
         });
     }
 
@@ -170,8 +171,11 @@ public:
         const Vec3 torque = cross_32(lever_in_units(body, point), push);
         pushed.shift = rounded_share(pushed.share, push);
         pushed.turn = own_turn(body, pushed.share, torque);
-        for_each_joint_back([this](ArticulatedJoint& part, const Joint&) { fold_error(part, {0, 0, 0}); });
-        for_each_joint([this](ArticulatedJoint& part, const Joint&) { part.push = push_of(part); });
+        for_each_joint_back([this](ArticulatedJoint& part, const Joint&) {
+            fold_error(scene_, range_, part, {0, 0, 0});
+        });
+        for_each_joint(
+            [this](ArticulatedJoint& part, const Joint&) { part.push = push_down(scene_, range_, part); });
         pushed.force = pushed.force + push;
         pushed.torque = pushed.torque + torque;
     }
@@ -238,6 +242,9 @@ public:
         }
     }
 
+    // As hold_springs has left them.
+    void keep_springs() { springs_give_ = false; }
+
     // Back to what the bodies' descriptions have.
     void raise_exponents() {
         for_each_body([](Body& body, ArticulatedBody& part) {
@@ -269,6 +276,14 @@ private:
                 add_load(part.child, joint, part.child_is_a);
             }
         });
+        for (std::uint32_t i = range_.first_closure; i < range_.closure_end; ++i) {
+            const Closure& closure = scene_.closures[i];
+            for (const ClosureSide* side : {&closure.a, &closure.b}) {
+                if (closure.closes && side->tree != no_tree && &scene_.trees[side->tree] == &range_) {
+                    add_load(side->body, scene_.joints[closure.joint], side == &closure.a);
+                }
+            }
+        }
         for_each_body([this](Body& body, ArticulatedBody& part) {
             stiffen(body, part, range_.is_uneven);
             part.load = std::max(part.load, part.found_load);
@@ -293,41 +308,6 @@ private:
                                   30 - body.inverse_shift - part.lowered);
         part.found_load = std::min(fixed::saturating_add(part.found_load, load),
                                    range_.is_uneven ? greatest_uneven_load : greatest_load);
-    }
-
-    // By the torque that it begins with.
-    Vec3 turn_by_itself(const Body& body, const ArticulatedBody& part) const {
-        return range_.is_uneven ? own_turn<uneven_fraction_bits>(body, part.fine_share, part.carried_torque)
-                                : own_turn(body, part.share, part.carried_torque);
-    }
-
-    // `apart`: how far the child's point is from the parent's.
-    void fold_error(ArticulatedJoint& part, const Vec3& apart) {
-        if (range_.is_uneven) {
-            fold_uneven(scene_, range_, part, apart);
-            return;
-        }
-        ArticulatedBody& parent = scene_.articulated[part.parent];
-        part.push = -symmetric(part.inverse.entries, left_apart(scene_, part, apart));
-        clamp_vector(part.push, greatest_push);
-        const std::int64_t pushes[3] = {part.push.x, part.push.y, part.push.z};
-        for (int axis = 0; axis < 3; ++axis) {
-            parent.shift = parent.shift - multiply_32(pushes[axis], part.column_shift[axis]);
-            parent.turn = parent.turn - multiply_32(pushes[axis], part.column_turn[axis]);
-        }
-    }
-
-    // With what the joints towards the root push the parent.
-    Vec3 push_of(const ArticulatedJoint& part) {
-        const ArticulatedBody& parent = scene_.articulated[part.parent];
-        const auto along = [&](int axis) {
-            return dot_32(part.column_shift[axis], parent.force) +
-                   dot_32(part.column_turn[axis], parent.torque);
-        };
-        Vec3 push = part.push + symmetric(part.inverse.entries, {along(0), along(1), along(2)});
-        clamp_vector(push, greatest_push);
-        push_at_joint(scene_, part, push);
-        return push;
     }
 
     bool springs_give_ = true;
@@ -365,6 +345,9 @@ void add_tree_push(Joint& joint, const Vec3& push, bool is_uneven) {
 }
 
 void solve_articulation(RigidScene& scene, const ArticulatedTree& tree) {
+    if (tree.has_closures()) {
+        return; // solve_closures
+    }
     Tree all(scene, tree);
     all.follow_uneven();
     all.solve(left_of_points,
@@ -421,6 +404,13 @@ void undo_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     if (tree.is_uneven) {
         all.raise_exponents();
     }
+}
+
+void bring_tree_together(RigidScene& scene, const ArticulatedTree& tree) {
+    Tree all(scene, tree);
+    all.keep_springs();
+    all.bring_together();
+    all.make_units();
 }
 
 } // namespace lks

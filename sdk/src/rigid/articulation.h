@@ -11,7 +11,8 @@
 //
 // with L the motion of the joint's point by that of the body. A spring adds what it gives way by to D (XPBD's
 // α̃ / (1 + γ)), and pushes from nothing in each substep; what is undone without speed strains none. Joints
-// that close a loop, soft turns and distances are left to the sweeps.
+// that close a loop, and distances, are solved behind it (rigid/closures.h); soft turns are left to the
+// sweeps.
 //
 // Numbers: inverse masses are shares of the greatest one in the tree, levers and turns in each body's own
 // unit of length (rigid/inertia.h), 32 fraction bits; pushes and errors are lengths in World. Where masses
@@ -24,6 +25,10 @@ namespace lks {
 
 // Which joints are solved so in this tick, from the leaves on; marks them.
 void find_articulations(RigidScene& scene);
+// Its points are near enough to its bodies, and not too soft, and no spring holds what it turns.
+bool fits_trees(const RigidScene& scene, const Joint& joint);
+// For solves of more than 32 fraction bits: its bodies' inverse masses (ArticulatedBody::fine_share).
+void find_fine_shares(RigidScene& scene, const ArticulatedTree& tree);
 // Once the bodies are predicted: the factors of a tree.
 void factor_articulation(RigidScene& scene, const ArticulatedTree& tree);
 // Brings back to zero how much the points have parted in this substep, with speed.
@@ -43,6 +48,8 @@ void shift_from_outside(RigidScene& scene, const ArticulatedTree& tree, std::uin
 void stiffen_further(RigidScene& scene, const ArticulatedTree& tree);
 // Once velocities are known: all errors of its joints (undo_error, and the points), without giving speed.
 void undo_articulation(RigidScene& scene, const ArticulatedTree& tree);
+// After that, where something else has moved its bodies: the points again.
+void bring_tree_together(RigidScene& scene, const ArticulatedTree& tree);
 
 // Its parts, for trees that are solved side by side (rigid/wide_trees.h). Before the factors: bodies turn as
 // heavily as a substep can follow.

@@ -31,14 +31,9 @@ struct ArticulatedBody {
     std::int64_t share;      // of the tree's greatest inverse mass
     std::int64_t fine_share; // the same with 40 fraction bits: of uneven trees
     bool attached;
-    bool has_anchor;        // a joint of its tree's solve holds it on what does not move
-    bool tree_has_anchor;   // of the root: one holds any of its tree
-    bool on_anchor_way;     // between the root and the first anchor of its tree
-    std::uint32_t incoming; // the joint of tree_joints by which it hangs on its parent; of the root none
-    // On that way: where it leaves the body, in its frame, and how long it is from the anchor to there,
-    // World.
-    fixed::Vec3 anchor_point;
-    std::int64_t anchor_way;
+    bool has_points;         // joints that hold points of it, while closures are found
+    bool tree_has_anchor;    // of the root: a joint of its solve holds it on what does not move
+    std::uint32_t incoming;  // the joint of tree_joints by which it hangs on its parent; of the root none
     HeavySides heavy;        // while trees are found
     bool loads_rope;         // by its attachments, which then leave the tree as it is (rigid/rope_loads.h)
     std::uint32_t tree;      // or none
@@ -96,6 +91,14 @@ struct ArticulatedTree {
     // How often its longest lever is twice as long as those of most trees at most: what pushes there turns by
     // as much more.
     int lever_doublings;
+    std::uint32_t lightest; // body
+    // What closes loops in its figure (rigid/closures.h), and the inverse mass of its lightest body in that
+    // of the figure's, 32 fraction bits.
+    std::uint32_t first_closure;
+    std::uint32_t closure_end;
+    std::int64_t figure_share;
+
+    bool has_closures() const { return first_closure != closure_end; }
 };
 
 } // namespace lks

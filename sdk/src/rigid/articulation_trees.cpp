@@ -6,7 +6,6 @@
 #include "rigid/body_roots.h"
 #include "rigid/heavy_sides.h"
 #include "rigid/rope_loads.h"
-#include "rigid/taut_anchors.h"
 #include "rigid/uneven_tree.h"
 
 namespace lks {
@@ -70,7 +69,8 @@ public:
         scene_.tree_joints.clear();
         scene_.trees.clear();
         for (Joint& joint : scene_.joints) {
-            joint.in_tree = joint.in_held_tree = false;
+            joint.in_tree = joint.in_held_tree = joint.closes_loop = false;
+            joint.turns_in_tree = joint.limits_in_tree = false;
         }
         // What closes a loop is rather a soft one.
         for (const bool soft : {false, true}) {
@@ -111,12 +111,7 @@ private:
     static std::uint32_t joint_of(std::uint64_t link) { return static_cast<std::uint32_t>(link); }
 
     bool may_be_solved(const Joint& joint) const {
-        const JointDescription& d = joint.description;
-        const Body& a = scene_.bodies[d.body_a];
-        const Body& b = scene_.bodies[d.body_b];
-        return d.kind != LKS_JOINT_DISTANCE && joint.constants.points.softness <= greatest_tree_softness &&
-               joint.constants.angular_softness == 0 && (a.is_awake() || b.is_awake()) &&
-               is_near(a, d.point_a) && is_near(b, d.point_b);
+        return joint.description.kind != LKS_JOINT_DISTANCE && fits_trees(scene_, joint);
     }
 
     // Of one body that moves and one that does not.
@@ -136,40 +131,27 @@ private:
         scene_.tree_links.push_reserved(std::uint64_t{d.body_b} << 32 | index);
     }
 
-    // A second joint to what does not move closes a loop, too. Solved with the tree it asks for the
-    // impossible where the two don't fit: what a body that both hold has left along the line between them is
-    // roundings, and dividing by those throws it about. So each tree has one, and others where they fit and
-    // hold another body.
+    // A second joint to what does not move closes a loop, too: each tree has one, rather a rigid one.
     void choose_anchors() {
         for (ArticulatedBody& body : scene_.articulated) {
-            body.has_anchor = body.tree_has_anchor = body.on_anchor_way = false;
+            body.tree_has_anchor = false;
         }
-        for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
-            const Joint& joint = scene_.joints[i];
-            if (!scene_.joint_slots[i].used || !may_be_solved(joint) || !is_anchor(joint)) {
-                continue;
+        for (const bool soft : {false, true}) {
+            for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
+                const Joint& joint = scene_.joints[i];
+                if (!scene_.joint_slots[i].used || has_soft_points(joint.constants) != soft ||
+                    !may_be_solved(joint) || !is_anchor(joint)) {
+                    continue;
+                }
+                const JointDescription& d = joint.description;
+                const std::uint32_t held = scene_.bodies[d.body_a].is_awake() ? d.body_a : d.body_b;
+                ArticulatedBody& root = scene_.articulated[roots_.root(held)];
+                if (!root.tree_has_anchor) {
+                    root.tree_has_anchor = true;
+                    scene_.tree_links.push_reserved(std::uint64_t{held} << 32 | i);
+                }
             }
-            const JointDescription& d = joint.description;
-            const std::uint32_t held = scene_.bodies[d.body_a].is_awake() ? d.body_a : d.body_b;
-            if (has_soft_points(joint.constants)) { // it asks for nothing impossible
-                scene_.tree_links.push_reserved(std::uint64_t{held} << 32 | i);
-                continue;
-            }
-            ArticulatedBody& body = scene_.articulated[held];
-            ArticulatedBody& root = scene_.articulated[roots_.root(held)];
-            if (root.tree_has_anchor && (body.has_anchor || !fits(joint))) {
-                continue;
-            }
-            body.has_anchor = root.tree_has_anchor = true;
-            scene_.tree_links.push_reserved(std::uint64_t{held} << 32 | i);
         }
-    }
-
-    // Within a millimetre.
-    bool fits(const Joint& joint) const {
-        const JointDescription& d = joint.description;
-        return sum_of_magnitudes(joint_offset(joint, scene_.bodies[d.body_a], scene_.bodies[d.body_b])) <=
-               world_one / 1000;
     }
 
     // The end of the links of the body at `i`.
@@ -228,11 +210,10 @@ private:
             anchored = anchored || is_anchored(scene_.articulated[parent]);
             add_joints(parent);
         }
-        if (attached && !count_holds(begin_joints).any()) {
+        if (attached && !has_anchor(begin_joints)) {
             drop_from(begin, begin_joints);
             return;
         }
-        leave_out_taut_anchors(scene_, begin_joints);
         const std::int64_t most = loaded ? uneven_ratio_on_ropes : uneven_ratio;
         bool uneven = false;
         for (std::size_t i = begin; i < scene_.tree_bodies.size(); ++i) {
@@ -248,33 +229,31 @@ private:
             return;
         }
         name_tree(begin);
-        if (uneven) {
-            find_fine_shares(begin, lightest);
-        }
         const bool held =
             mark_held(begin_joints, anchored || lies_between_heavy_bodies(scene_, begin, begin_joints));
-        scene_.trees.push_reserved({begin, static_cast<std::uint32_t>(scene_.tree_bodies.size()),
-                                    begin_joints, static_cast<std::uint32_t>(scene_.tree_joints.size()), held,
-                                    loaded, has_springs(begin_joints), uneven, find_doublings(begin_joints)});
+        ArticulatedTree tree{};
+        tree.first_body = begin;
+        tree.body_end = static_cast<std::uint32_t>(scene_.tree_bodies.size());
+        tree.first_joint = begin_joints;
+        tree.joint_end = static_cast<std::uint32_t>(scene_.tree_joints.size());
+        tree.is_held = held;
+        tree.is_loaded = loaded;
+        tree.has_springs = has_springs(begin_joints);
+        tree.is_uneven = uneven;
+        tree.lever_doublings = find_doublings(begin_joints);
+        tree.lightest = lightest;
+        if (uneven) {
+            find_fine_shares(scene_, tree);
+        }
+        scene_.trees.push_reserved(tree);
         any_held_ = any_held_ || held;
         any_uneven_ = any_uneven_ || uneven;
     }
 
-    // Joints of the tree that begins there to what does not move.
-    struct Holds {
-        int rigid = 0;
-        int soft = 0;
-        bool any() const { return rigid + soft != 0; }
-    };
-    Holds count_holds(std::size_t joint) const {
-        Holds holds;
-        for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
-            const ArticulatedJoint& at = scene_.tree_joints[i];
-            if (!at.child_moves) {
-                ++(has_soft_points(scene_.joints[at.joint].constants) ? holds.soft : holds.rigid);
-            }
-        }
-        return holds;
+    // By a joint of the tree that begins there to what does not move.
+    bool has_anchor(std::size_t joint) const {
+        return std::any_of(scene_.tree_joints.begin() + joint, scene_.tree_joints.end(),
+                           [](const ArticulatedJoint& at) { return !at.child_moves; });
     }
 
     bool has_springs(std::size_t joint) const {
@@ -311,25 +290,14 @@ private:
         }
         any_left_out_ = true;
     }
-    void find_fine_shares(std::size_t body, std::uint32_t lightest) {
-        for (std::size_t i = body; i < scene_.tree_bodies.size(); ++i) {
-            const std::uint32_t index = scene_.tree_bodies[i];
-            scene_.articulated[index].fine_share =
-                share_of(scene_.bodies[index].inverse_mass, scene_.bodies[lightest].inverse_mass,
-                         uneven_fraction_bits - 32);
-        }
-    }
-
     bool is_anchored(const ArticulatedBody& body) const {
         return body.rope_load != no_rope_load && scene_.rope_loads[body.rope_load].anchored;
     }
 
     // The joints of the tree that begins there, where something holds it or one of them is to what does not
-    // move. Where several are, as of a bridge, hinges and fixed joints hold the same twice: their rows depend
-    // on each other, and solved together they would throw the bridge apart. Springs give way.
+    // move.
     bool mark_held(std::size_t joint, bool held) {
-        const Holds holds = count_holds(joint);
-        held = holds.rigid == 1 || (holds.rigid == 0 && (held || holds.soft != 0));
+        held = held || has_anchor(joint);
         for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
             scene_.joints[scene_.tree_joints[i].joint].in_held_tree = held;
         }
@@ -376,6 +344,24 @@ private:
 };
 
 } // namespace
+
+void find_fine_shares(RigidScene& scene, const ArticulatedTree& tree) {
+    for (std::uint32_t i = tree.first_body; i < tree.body_end; ++i) {
+        const std::uint32_t index = scene.tree_bodies[i];
+        scene.articulated[index].fine_share =
+            share_of(scene.bodies[index].inverse_mass, scene.bodies[tree.lightest].inverse_mass,
+                     uneven_fraction_bits - 32);
+    }
+}
+
+bool fits_trees(const RigidScene& scene, const Joint& joint) {
+    const JointDescription& d = joint.description;
+    const Body& a = scene.bodies[d.body_a];
+    const Body& b = scene.bodies[d.body_b];
+    return joint.constants.points.softness <= greatest_tree_softness &&
+           joint.constants.angular_softness == 0 && (a.is_awake() || b.is_awake()) && is_near(a, d.point_a) &&
+           is_near(b, d.point_b);
+}
 
 void find_articulations(RigidScene& scene) {
     Trees(scene).find();

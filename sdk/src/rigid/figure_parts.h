@@ -6,6 +6,7 @@
 
 #include "fixed/int128.h"
 #include "rigid/body.h"
+#include "rigid/closure_parts.h"
 
 namespace lks {
 
@@ -53,12 +54,13 @@ struct FreeMotion {
 // Where the parts of each kind begin among all parts, and where the last ones end.
 struct FigureRange {
     std::uint32_t begins[part_kinds + 1];
-    InverseMass heaviest; // of its heaviest body
-    bool is_held;         // by a joint to what does not move
-    bool has_held_tree;   // of which what joints turn is solved with their points (rigid/held_tree.h)
-    bool is_pinned;       // by an attachment to a particle that does not move
-    bool is_loaded;       // its trees hang on ropes that bear them (rigid/rope_loads.h)
-    bool relieved;        // in this substep: it had iterations more
+    InverseMass heaviest;   // of its heaviest body
+    bool is_held;           // by a joint to what does not move
+    bool has_held_tree;     // of which what joints turn is solved with their points (rigid/held_tree.h)
+    bool is_pinned;         // by an attachment to a particle that does not move
+    bool is_loaded;         // its trees hang on ropes that bear them (rigid/rope_loads.h)
+    bool relieved;          // in this substep: it had iterations more
+    std::uint32_t closures; // of the scene's closure_ranges, or no_closures
     FreeMotion motion;
 
     std::uint32_t begin() const { return begins[0]; }

@@ -1,5 +1,7 @@
 #include "rigid/figures.h"
 
+#include <algorithm>
+
 #include "memory/sort_numbers.h"
 #include "rigid/body_roots.h"
 
@@ -13,6 +15,16 @@ InverseMass heaviest_of(const RigidScene& scene, const FigureRange& figure) {
         best = heavier(other, best) ? other : best;
     });
     return best;
+}
+
+std::uint32_t closures_of(const RigidScene& scene, std::uint32_t figure) {
+    const Array<ClosureRange>& ranges = scene.closure_ranges;
+    const ClosureRange* const range =
+        std::lower_bound(ranges.begin(), ranges.end(), figure,
+                         [](const ClosureRange& r, std::uint32_t name) { return r.figure < name; });
+    return range != ranges.end() && range->figure == figure
+               ? static_cast<std::uint32_t>(range - ranges.begin())
+               : no_closures;
 }
 
 void find_ranges(RigidScene& scene) {
@@ -42,6 +54,7 @@ void find_ranges(RigidScene& scene) {
             range.is_loaded = range.is_loaded || scene.trees[tree].is_loaded;
             range.has_held_tree = range.has_held_tree || scene.trees[tree].is_held;
         });
+        range.closures = closures_of(scene, figure);
         range.heaviest = heaviest_of(scene, range);
         for_each_part(scene, range, Part::body, [&](std::uint32_t body) {
             scene.figure_masses[body] = mass_in(range.heaviest, scene.bodies[body]);

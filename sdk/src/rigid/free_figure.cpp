@@ -83,13 +83,14 @@ bool is_pushed_by_limit(const RigidScene& scene, const FreeMotion& motion) {
     return motion.has_pivot && scene.joints[motion.pivot_joint].twist_push != 0;
 }
 
-// Neither motors nor springs are at work.
+// Neither motors nor springs are at work. Soft limits of a figure with loops are rows beside what solves
+// these, and give back nothing: what they would give has no bounds there.
 bool is_passive(const RigidScene& scene, const FigureRange& figure) {
     bool passive = true;
     for_each_part(scene, figure, Part::joint, [&](std::uint32_t i) {
         const Joint& joint = scene.joints[i];
         passive = passive && joint.description.motor_torque == 0 && !has_spring(joint.constants) &&
-                  joint.constants.limits.softness == 0;
+                  (joint.constants.limits.softness == 0 || joint.turns_in_tree);
     });
     return passive;
 }

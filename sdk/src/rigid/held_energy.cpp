@@ -9,6 +9,7 @@
 #include "rigid/figures.h"
 #include "rigid/joint_distance.h"
 #include "rigid/joint_drive.h"
+#include "rigid/joint_limits.h"
 #include "rigid/rope_loads.h"
 #include "rigid/substep_motion.h"
 
@@ -35,6 +36,9 @@ std::int64_t work_of_springs(const Joint& joint, const Body& a, const Body& b) {
     }
     if (c.angular_softness != 0) {
         work += work_of_turning(joint, a, b, joint.turn);
+    }
+    if (c.limits.softness != 0) {
+        work += work_of_turning(joint, a, b, limit_push(joint, a, b));
     }
     return work;
 }
@@ -261,8 +265,8 @@ private:
         bool within = !is_near_particles();
         for_each(Part::joint, [&](std::uint32_t i) {
             const Joint& joint = scene_.joints[i];
-            within = within && joint.constants.limits.softness == 0 &&
-                     (range_.is_loaded ? joint.in_tree : !is_soft_distance(joint));
+            within = within && (joint.constants.limits.softness == 0 || joint.turns_in_tree) &&
+                     (range_.is_loaded ? joint.in_tree : !is_soft_distance(joint) || joint.closes_loop);
         });
         for (const Part kind : {Part::contact, Part::shared_contact}) {
             for_each(kind, [&](std::uint32_t i) {

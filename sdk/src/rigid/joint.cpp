@@ -190,7 +190,9 @@ bool undo_error(const Joint& joint, Body& a, Body& b, bool pinned) {
     undo_turn(joint, a, b);
     const bool far_off = undo_limits(joint, a, b);
     if (is_distance(joint)) {
-        undo_distance(joint, a, b);
+        if (!joint.in_tree) {
+            undo_distance(joint, a, b);
+        }
     } else if (keeps_push(joint) && !joint.in_tree && !pinned) {
         Vec3 error = joint_offset(joint, a, b);
         clamp_vector(error, greatest_step);
@@ -221,9 +223,12 @@ void project(Joint& joint, Body& a, Body& b) {
     project_drive(joint, a, b);
     project_turn(joint, a, b);
     project_limits(joint, a, b);
+    if (joint.in_tree) {
+        return;
+    }
     if (is_distance(joint)) {
         project_distance(joint, a, b);
-    } else if (!joint.in_tree) {
+    } else {
         project_points(joint, a, b);
     }
 }

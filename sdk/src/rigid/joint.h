@@ -144,6 +144,9 @@ struct Joint : JointState {
 
     // Of the tick: its points are solved with those of its tree (rigid/articulation.h).
     bool in_tree;
+    bool closes_loop;          // but behind it (rigid/closures.h)
+    bool turns_in_tree;        // what it turns is solved with those points, as its tree has loops
+    bool limits_in_tree;       // and so are its limits, in this substep
     bool in_held_tree;         // and what it turns is, where a tree is held (rigid/held_tree.h)
     fixed::Rotation motor_aim; // the motor's target, or what is next to it within limits (rigid/motor_aim.h)
 
@@ -151,7 +154,8 @@ struct Joint : JointState {
     std::int64_t tension;        // how much it pushed in the one before, or since: World
     fixed::Vec3 begin;           // how far the points were apart at its beginning
     fixed::Vec3 start;           // what of it is to be kept
-    std::int64_t kept_error;     // what of it a distance joint keeps: along the way, World
+    std::int64_t kept_error;     // what of it a distance joint keeps: along the way, World; and, while errors
+                                 // are undone, how long a soft one is held
     fixed::Vec3 turn_start;      // how far a hinge's or a fixed joint's frames are turned at its beginning
     fixed::Vec3 drag;            // what angular damping turned
     fixed::Direction swing_axis; // about which b has swung where its limit pushes

@@ -81,13 +81,20 @@ Range allowed_range(const Joint& joint) {
             d.distance_max + std::max<std::int64_t>(kept, 0)};
 }
 
+// Whether it is a rope or a strut by now: by what it has pushed, or by which of the two it is nearer to.
+int side_of(std::int64_t length, std::int64_t least, std::int64_t most, std::int64_t pushed) {
+    return pushed != 0 ? (pushed < 0 ? -1 : 1) : most - length <= length - least ? -1 : 1;
+}
+
 } // namespace
 
 void begin_distance(Joint& joint, const Body& a, const Body& b) {
     joint.kept_error = 0;
     const NormalisedVector way = way_along(joint.begin, joint.push);
     const std::int64_t error = distance_error(joint.description, way.length);
-    if (error != 0 && !is_soft(joint)) {
+    if (joint.in_tree) {
+        joint.kept_error = is_soft(joint) ? 0 : error;
+    } else if (error != 0 && !is_soft(joint)) {
         const std::int64_t pushed = fixed::dot(way.direction, joint.push);
         const std::int64_t moved =
             DistanceRow(joint, a, b, way.direction).moved_by(pushed < 0 ? -pushed : pushed);
@@ -125,6 +132,34 @@ void project_distance(Joint& joint, Body& a, Body& b) {
     }
     joint.push = fixed::scale(way.direction, pushed + p);
     row.apply(a, b, p);
+}
+
+DistanceError left_of_distance(const Joint& joint, const Body& a, const Body& b) {
+    const Softness& softness = joint.constants.points;
+    const Vec3 offset = joint_offset(joint, a, b);
+    const NormalisedVector way = way_along(offset, joint.push);
+    const auto [least, most] = allowed_range(joint);
+    const std::int64_t pushed = fixed::dot(way.direction, joint.push);
+    const std::int64_t motion = fixed::dot(way.direction, offset - joint.begin);
+    const int side = is_rod(joint.description) ? 0 : side_of(way.length, least, most, pushed);
+    const std::int64_t left = soften(softness, way.length - (side > 0 ? least : most), motion, pushed);
+    const std::int64_t step = greatest_step_of(softness);
+    return {way.direction, std::clamp(left, -step, step), pushed, side};
+}
+
+DistanceError distance_beyond(const Joint& joint, const Body& a, const Body& b) {
+    const JointDescription& d = joint.description;
+    const NormalisedVector way = way_along(joint_offset(joint, a, b), joint.push);
+    if (is_soft(joint)) {
+        return {way.direction, way.length - joint.kept_error, 0, 0};
+    }
+    const int side = is_rod(d) ? 0 : side_of(way.length, d.distance_min, d.distance_max, 0);
+    return {way.direction, way.length - (side > 0 ? d.distance_min : d.distance_max), 0, side};
+}
+
+void hold_spring(Joint& joint, const Body& a, const Body& b) {
+    joint.start = joint_offset(joint, a, b);
+    joint.kept_error = way_along(joint.start, joint.push).length;
 }
 
 void undo_distance(const Joint& joint, Body& a, Body& b) {

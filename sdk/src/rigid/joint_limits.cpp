@@ -269,7 +269,7 @@ Vec3 along_limits(const Joint& joint, const Body& a, const Body& b, const Vec3& 
 }
 
 void prepare_limits(Joint& joint) {
-    if (are_soft(joint)) {
+    if (are_soft(joint) || joint.limits_in_tree) {
         joint.swing_push = joint.twist_push = 0;
     }
 }
@@ -293,6 +293,9 @@ void add_to_limits(Joint& joint, std::int32_t share) {
 }
 
 void project_limits(Joint& joint, Body& a, Body& b) {
+    if (joint.limits_in_tree) {
+        return;
+    }
     if (joint.constants.swing_limited) {
         hold_swing(joint, a, b);
     }

@@ -142,7 +142,7 @@ void prepare_turn(Joint& joint, const Body& a, const Body& b) {
         return;
     }
     joint.turn_inverse = invert_turning(joint, a, b);
-    if (!keeps_turn(joint)) {
+    if (!keeps_turn(joint) || joint.turns_in_tree) {
         joint.turn = {0, 0, 0};
         return;
     }
@@ -171,7 +171,7 @@ Vec3 add_to_turn(Joint& joint, std::int32_t share) {
 }
 
 void project_turn(Joint& joint, Body& a, Body& b) {
-    if (!holds_turn(joint)) {
+    if (!holds_turn(joint) || joint.turns_in_tree) {
         return;
     }
     const Vec3 before = joint.turn;
@@ -208,6 +208,16 @@ std::uint32_t turn_rows(const Joint& joint, const Body& a, const Body& b, bool i
         rows[i] = {HeldRow::Kind::turn, axes[i], to_world_angle(fixed::dot(axes[i], turned)), 0};
     }
     return count;
+}
+
+Vec3 turn_error(const Joint& joint, const Body& a, const Body& b, bool in_substep) {
+    HeldRow rows[most_held_rows];
+    const std::uint32_t count = turn_rows(joint, a, b, in_substep, rows);
+    Vec3 sum{0, 0, 0};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        sum = sum + fixed::scale(rows[i].axis, rows[i].error);
+    }
+    return sum;
 }
 
 std::int64_t turned_away(const Joint& joint, const Body& a, const Body& b, bool in_substep) {

@@ -21,6 +21,8 @@ void undo_turn(const Joint& joint, Body& a, Body& b);
 // What is not to turn, as rows, of joints without compliance: in this substep, or at all. How many.
 std::uint32_t turn_rows(const Joint& joint, const Body& a, const Body& b, bool in_substep,
                         HeldRow (&rows)[most_held_rows]);
+// All of them in one, in the world.
+fixed::Vec3 turn_error(const Joint& joint, const Body& a, const Body& b, bool in_substep);
 // Of them, the most it has turned by: World, radians.
 std::int64_t turned_away(const Joint& joint, const Body& a, const Body& b, bool in_substep);
 

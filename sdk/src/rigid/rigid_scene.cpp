@@ -27,14 +27,16 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       contact_marks(allocator), contacts_act(allocator), contact_moves(allocator), next_memories(allocator),
       islands(allocator), tree_roots(allocator), tree_links(allocator), tree_bodies(allocator),
       tree_joints(allocator), articulated(allocator), trees(allocator), held_joints(allocator),
-      uneven_joints(allocator), figures(allocator), figure_parts(allocator), figure_ranges(allocator),
-      figure_bundles(allocator), wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator),
-      figure_shares(allocator), substep_motions(allocator), predicted_speeds(allocator),
-      figure_masses(allocator), figures_changed(allocator), strained_figures(allocator),
-      figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator), is_coupled(allocator),
-      coupled(allocator), object_pairs(allocator), object_pushes(allocator), object_touches(allocator),
-      held(allocator), rope_loads(allocator), particle_loads(allocator), loaded_bodies(allocator),
-      loaded_joints(allocator), loaded_attachments(allocator), tree_kernels_(tree_kernels) {}
+      uneven_joints(allocator), closing_joints(allocator), closures(allocator), closure_rows(allocator),
+      closure_ranges(allocator), closure_matrix(allocator), closure_tree_joints(allocator),
+      figures(allocator), figure_parts(allocator), figure_ranges(allocator), figure_bundles(allocator),
+      wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator), figure_shares(allocator),
+      substep_motions(allocator), predicted_speeds(allocator), figure_masses(allocator),
+      figures_changed(allocator), strained_figures(allocator), figure_shifts(allocator),
+      figure_pairs(allocator), island_rests(allocator), is_coupled(allocator), coupled(allocator),
+      object_pairs(allocator), object_pushes(allocator), object_touches(allocator), held(allocator),
+      rope_loads(allocator), particle_loads(allocator), loaded_bodies(allocator), loaded_joints(allocator),
+      loaded_attachments(allocator), tree_kernels_(tree_kernels) {}
 
 // A bundle takes the same for any number of trees.
 std::size_t RigidScene::wide_room(std::size_t count) const {
@@ -81,11 +83,14 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
 }
 
 bool RigidScene::reserve_joints(std::size_t count) {
-    const bool done = joint_slots.reserve(count) && joints.reserve(count) && loaded_joints.reserve(count) &&
-                      jointed.reserve(count) && tree_links.reserve(2 * count) && tree_joints.reserve(count) &&
-                      held_joints.reserve(count) && uneven_joints.reserve(count) && trees.reserve(count) &&
-                      wide_joints.reserve(wide_room(count)) &&
-                      reserve_figures(body_room_, count, attachment_room_);
+    const bool done =
+        joint_slots.reserve(count) && joints.reserve(count) && loaded_joints.reserve(count) &&
+        jointed.reserve(count) && tree_links.reserve(2 * count) && tree_joints.reserve(count) &&
+        held_joints.reserve(count) && uneven_joints.reserve(count) && trees.reserve(2 * count) &&
+        closing_joints.reserve(count) && closures.reserve(count) &&
+        closure_rows.reserve(closure_rows_a_joint * count) && closure_ranges.reserve(count) &&
+        closure_tree_joints.reserve(count) && closure_matrix.reserve(greatest_closure_entries(count)) &&
+        wide_joints.reserve(wide_room(count)) && reserve_figures(body_room_, count, attachment_room_);
     joint_room_ = done ? std::max(joint_room_, count) : joint_room_;
     return done;
 }
@@ -114,9 +119,9 @@ bool RigidScene::reserve_objects(std::size_t count) {
 // A contact may belong to two of them.
 bool RigidScene::reserve_figures(std::size_t body_count, std::size_t joint_count,
                                  std::size_t attachment_count) {
-    // As many trees as joints at most.
+    // As many trees as joints at most, and of bodies that only distances hold one more each.
     const std::size_t parts =
-        body_count + 2 * joint_count + attachment_count + 2 * contact_capacity(body_count);
+        body_count + 3 * joint_count + attachment_count + 2 * contact_capacity(body_count);
     return figure_parts.reserve(parts) && figure_ranges.reserve(body_count) &&
            sorting.reserve(std::max(parts, pair_capacity(body_count)));
 }

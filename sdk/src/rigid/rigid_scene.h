@@ -11,6 +11,8 @@
 #include "rigid/attachment.h"
 #include "rigid/body.h"
 #include "rigid/body_definition.h"
+#include "rigid/closure_parts.h"
+#include "rigid/closure_tree_parts.h"
 #include "rigid/contact_mark.h"
 #include "rigid/figure_parts.h"
 #include "rigid/held_tree_parts.h"
@@ -123,6 +125,13 @@ struct RigidScene {
     Array<ArticulatedTree> trees;
     Array<HeldJoint> held_joints;     // by tree joint, where a tree is held (rigid/held_tree.h)
     Array<UnevenJoint> uneven_joints; // the same where one's masses are uneven (rigid/uneven_tree.h)
+    // Of rigid/closures.h.
+    Array<std::uint64_t> closing_joints; // figure << 32 | joint, ascending
+    Array<Closure> closures;             // figure by figure: what closes loops, and trees' joints with limits
+    Array<ClosureRow> closure_rows;      // room for those of each figure
+    Array<ClosureRange> closure_ranges;  // of figures that have any, ascending
+    Array<std::int64_t> closure_matrix;  // of each of them
+    Array<ClosureTreeJoint> closure_tree_joints; // by tree joint, where any loop is closed
     // Of rigid/figures.h.
     Array<std::uint32_t> figures;      // by body: the least index in its figure
     Array<std::uint64_t> figure_parts; // of awake figures, ascending

@@ -3,6 +3,7 @@
 #include "collide/saturation.h"
 #include "rigid/articulation.h"
 #include "rigid/carried_pushes.h"
+#include "rigid/closures.h"
 #include "rigid/coupling.h"
 #include "rigid/figures.h"
 #include "rigid/held_energy.h"
@@ -48,6 +49,7 @@ void RigidSubstep::run(std::uint32_t substep) {
 
 void RigidSubstep::solve_trees(const FigureBundle& bundle) {
     blocks_.in_trees(bundle, solve_bundle, solve_articulation);
+    blocks_.for_each_figure(bundle, [this](const FigureRange& figure) { solve_closures(scene_, figure); });
 }
 
 void RigidSubstep::begin(std::uint32_t substep) {
@@ -100,6 +102,8 @@ void RigidSubstep::predict(std::uint32_t substep) {
 void RigidSubstep::carry_pushes_on() {
     blocks_.in_bundles([this](const FigureBundle& bundle) {
         blocks_.in_trees(bundle, factor_bundle, factor_articulation);
+        blocks_.for_each_figure(bundle,
+                                [this](const FigureRange& figure) { factor_closures(scene_, figure); });
         blocks_.for_each_figure(bundle, [this](const FigureRange& figure) {
             blocks_.for_each_joint(figure, [this](Joint& joint, Body& a, Body& b) {
                 prepare_pushes(joint, a, b);
@@ -241,7 +245,7 @@ bool RigidSubstep::may_gain(const FigureRange& figure) const {
                     (has_limits(c) && (turns_fast(d.body_a) || turns_fast(d.body_b)));
         });
     }
-    return has_uneven_tree(scene_, figure) || loose || figure.relieved;
+    return has_uneven_tree(scene_, figure) || loose || figure.relieved || figure.closures != no_closures;
 }
 
 // For events: where they give most. Also of those that don't act, but were struck.
@@ -299,7 +303,7 @@ void RigidSubstep::undo_errors() {
     blocks_.in_figures([&](const FigureRange& figure) {
         blocks_.for_each_joint(figure, [&](Joint& joint, Body& a, Body& b) {
             add_up_pushes(joint, a, b);
-            if (!joint.in_tree) {
+            if (!joint.in_tree || joint.closes_loop) {
                 undo_error(joint, a, b, figure.is_pinned);
             }
         });
@@ -308,8 +312,10 @@ void RigidSubstep::undo_errors() {
     for (const std::uint32_t i : scene_.shared_contacts) {
         undo(i);
     }
-    blocks_.in_bundles(
-        [this](const FigureBundle& bundle) { blocks_.in_trees(bundle, undo_bundle, undo_articulation); });
+    blocks_.in_bundles([this](const FigureBundle& bundle) {
+        blocks_.in_trees(bundle, undo_bundle, undo_articulation);
+        blocks_.for_each_figure(bundle, [this](const FigureRange& figure) { undo_closures(scene_, figure); });
+    });
     for_each_loaded_rope(scene_, [this](std::uint32_t object) { undo_rope_loads(world_, object); });
 }
 

@@ -5,6 +5,7 @@
 #include "fixed/formats.h"
 #include "rigid/articulation.h"
 #include "rigid/body_motion.h"
+#include "rigid/closures.h"
 #include "rigid/contact_memory.h"
 #include "rigid/contact_search.h"
 #include "rigid/coupling.h"
@@ -47,6 +48,7 @@ public:
             static_cast<void>(scene_.contact_marks.resize(scene_.contacts.size())); // within its room
         }
         find_articulations(scene_);
+        find_closures(scene_);
         find_figures(scene_);
         find_bundles(scene_);
         // Those that it has woken, too.

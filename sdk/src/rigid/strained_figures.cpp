@@ -1,6 +1,7 @@
 #include "rigid/strained_figures.h"
 
 #include "rigid/articulation.h"
+#include "rigid/closures.h"
 #include "rigid/held_tree.h"
 #include "rigid/joint_limits.h"
 #include "rigid/joint_turns.h"
@@ -41,10 +42,11 @@ void StrainedFigures::solve(const FigureRange& figure) const {
 void StrainedFigures::solve_trees(const FigureRange& figure) const {
     for_each_part(scene_, figure, Part::tree, [this](std::uint32_t i) {
         const ArticulatedTree& tree = scene_.trees[i];
-        if (!tree.is_held || !solve_held_tree(scene_, tree)) {
+        if (!tree.is_held || tree.has_closures() || !solve_held_tree(scene_, tree)) {
             solve_articulation(scene_, tree);
         }
     });
+    solve_closures(scene_, figure);
 }
 
 // The figure of a body.

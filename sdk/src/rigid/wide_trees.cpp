@@ -53,7 +53,7 @@ const ArticulatedTree* only_tree(const RigidScene& scene, const FigureRange& fig
 
 // Those that aren't are solved otherwise, pushed by what is no joint of theirs, or turned beyond 2^62.
 bool is_plain(const ArticulatedTree& tree) {
-    return !tree.is_held && !tree.is_uneven && !tree.is_loaded && !tree.has_springs &&
+    return !tree.is_held && !tree.is_uneven && !tree.is_loaded && !tree.has_springs && !tree.has_closures() &&
            tree.lever_doublings == 0;
 }
 

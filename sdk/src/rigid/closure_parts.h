@@ -1,0 +1,71 @@
+// What the solver of rigid/closures.h keeps of joints that close loops, and of the trees that they close.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "rigid/body.h"
+#include "rigid/held_row.h"
+#include "rigid/row_joint.h"
+
+namespace lks {
+
+// Of a figure: what closes loops in more is swept, and so are limits that there is no room for.
+inline constexpr std::uint32_t most_closure_rows = 48;
+inline constexpr std::uint32_t closure_rows_a_joint = 3;
+
+struct ClosureSide {
+    std::uint32_t body;
+    std::uint32_t tree; // no_tree: it does not move
+    fixed::Vec3 lever;  // as its factors have it: as ArticulatedJoint's
+};
+
+// A joint that closes a loop, or one of a tree that has limits.
+struct Closure {
+    std::uint32_t joint;
+    bool closes; // or its points are the tree's
+    std::uint32_t first_row;
+    std::uint32_t row_count;
+    ClosureSide a;
+    ClosureSide b;
+    std::int64_t
+        pair_share; // the greater inverse mass of its bodies in the figure's greatest, 32 fraction bits
+};
+
+// What it holds in one direction, as the factors have it.
+struct ClosureRow {
+    enum class Kind : std::uint8_t { distance, point, turn, limit };
+
+    Kind kind;
+    HeldRow::Kind limit;    // of which kind
+    fixed::Direction along; // b's point from a's, or about it b against a; in the world
+    std::int32_t scale;     // the power of two by which it is scaled, so that `own` is about one
+    std::int64_t own;       // what its bodies by themselves give way by, 40 fraction bits
+    fixed::Vec3 torque_a;   // of a unit push, 40 fraction bits
+    fixed::Vec3 torque_b;
+};
+
+// Of one figure: which of the scene's closures, rows and entries of closure_matrix are its.
+struct ClosureRange {
+    std::uint32_t figure;
+    InverseMass lightest; // of its bodies
+    std::uint32_t first;
+    std::uint32_t end;
+    std::uint32_t first_row;
+    std::uint32_t row_room;
+    std::uint32_t row_count; // of its last factors
+    std::uint32_t first_entry;
+};
+inline constexpr std::uint32_t no_closures = UINT32_MAX;
+
+// Row by row up to the diagonal.
+constexpr std::uint32_t entry_of(std::uint32_t row, std::uint32_t column) {
+    return row * (row + 1) / 2 + column;
+}
+inline constexpr std::uint32_t most_closure_entries = entry_of(most_closure_rows, 0);
+// Of all figures of a scene with so many joints.
+constexpr std::size_t greatest_closure_entries(std::size_t joints) {
+    return closure_rows_a_joint * joints * (most_closure_rows + 1) / 2;
+}
+
+} // namespace lks

@@ -1,0 +1,258 @@
+#include <algorithm>
+
+#include "memory/sort_numbers.h"
+#include "rigid/articulation.h"
+#include "rigid/closures.h"
+#include "rigid/joint_distance.h"
+
+namespace lks {
+namespace {
+
+class ClosureSearch {
+public:
+    explicit ClosureSearch(RigidScene& scene) : scene_(scene) {}
+
+    void find() {
+        scene_.closing_joints.clear();
+        scene_.closures.clear();
+        scene_.closure_ranges.clear();
+        scene_.closure_rows.clear();
+        scene_.closure_matrix.clear();
+        find_candidates();
+        const Array<std::uint64_t>& found = scene_.closing_joints;
+        for (std::size_t i = 0; i < found.size();) {
+            const std::size_t end = end_of_figure(i);
+            take(i, end);
+            i = end;
+        }
+        if (!scene_.closures.empty()) { // within its room
+            static_cast<void>(scene_.closure_tree_joints.resize(scene_.tree_joints.size()));
+        }
+    }
+
+private:
+    static std::uint32_t figure_of(std::uint64_t found) { return static_cast<std::uint32_t>(found >> 32); }
+    Joint& joint_of(std::uint64_t found) { return scene_.joints[static_cast<std::uint32_t>(found)]; }
+    const Body& body(std::uint32_t index) const { return scene_.bodies[index]; }
+
+    static std::uint32_t rows_of(const Joint& joint) {
+        const std::uint32_t kind = joint.description.kind;
+        return kind == LKS_JOINT_DISTANCE ? 1 : kind == LKS_JOINT_FIXED ? 6 : kind == LKS_JOINT_HINGE ? 5 : 3;
+    }
+
+    void find_candidates() {
+        mark_jointed();
+        for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
+            const Joint& joint = scene_.joints[i];
+            if (scene_.joint_slots[i].used && !joint.in_tree && closes(joint)) {
+                const JointDescription& d = joint.description;
+                const std::uint32_t moving = body(d.body_a).is_awake() ? d.body_a : d.body_b;
+                scene_.closing_joints.push_reserved(std::uint64_t{scene_.figures[moving]} << 32 | i);
+            }
+        }
+        sort_numbers(scene_.closing_joints, scene_.sorting);
+    }
+
+    // Bodies with joints that hold points, whether a tree has them or not.
+    void mark_jointed() {
+        for (ArticulatedBody& part : scene_.articulated) {
+            part.has_points = false;
+        }
+        for (std::uint32_t i = 0; i < scene_.joints.size(); ++i) {
+            if (scene_.joint_slots[i].used && !is_distance(scene_.joints[i])) {
+                const JointDescription& d = scene_.joints[i].description;
+                scene_.articulated[d.body_a].has_points = scene_.articulated[d.body_b].has_points = true;
+            }
+        }
+    }
+
+    // Its bodies are in trees that nothing else bears, or alone.
+    bool closes(const Joint& joint) const {
+        const JointDescription& d = joint.description;
+        return fits_trees(scene_, joint) && may_hold(d.body_a) && may_hold(d.body_b);
+    }
+    bool may_hold(std::uint32_t index) const {
+        if (!body(index).is_awake()) {
+            return true;
+        }
+        const ArticulatedBody& part = scene_.articulated[index];
+        return part.tree != no_tree ? !scene_.trees[part.tree].is_loaded
+                                    : !part.has_points && !part.attached && !part.loads_rope;
+    }
+
+    std::size_t end_of_figure(std::size_t first) const {
+        const Array<std::uint64_t>& found = scene_.closing_joints;
+        std::size_t end = first;
+        while (end < found.size() && figure_of(found[end]) == figure_of(found[first])) {
+            ++end;
+        }
+        return end;
+    }
+
+    // All of a figure's, or none: where there is no room for them.
+    void take(std::size_t first, std::size_t end) {
+        std::size_t rows = 0;
+        std::size_t joints = 0; // of the greatest tree
+        for (std::size_t i = first; i < end; ++i) {
+            const Joint& joint = joint_of(scene_.closing_joints[i]);
+            rows += rows_of(joint);
+            joints = std::max(
+                {joints, joints_beside(joint.description.body_a), joints_beside(joint.description.body_b)});
+        }
+        const std::size_t room = closure_rows_a_joint * (end - first + joints);
+        if (rows > std::min<std::size_t>(room, most_closure_rows)) {
+            return;
+        }
+        ClosureRange range{};
+        range.figure = figure_of(scene_.closing_joints[first]);
+        range.first = static_cast<std::uint32_t>(scene_.closures.size());
+        for (std::size_t i = first; i < end; ++i) {
+            add_closing(static_cast<std::uint32_t>(scene_.closing_joints[i]));
+        }
+        range.end = static_cast<std::uint32_t>(scene_.closures.size());
+        find_shares(range);
+        const std::size_t tree_joints = add_trees(range);
+        range.row_room = static_cast<std::uint32_t>(
+            std::min<std::size_t>(closure_rows_a_joint * (end - first + tree_joints), most_closure_rows));
+        range.first_row = static_cast<std::uint32_t>(scene_.closure_rows.size());
+        range.first_entry = static_cast<std::uint32_t>(scene_.closure_matrix.size());
+        // Within their room.
+        static_cast<void>(scene_.closure_rows.resize(range.first_row + range.row_room));
+        static_cast<void>(scene_.closure_matrix.resize(range.first_entry + entry_of(range.row_room, 0)));
+        scene_.closure_ranges.push_reserved(range);
+    }
+
+    // In its tree.
+    std::size_t joints_beside(std::uint32_t index) const {
+        const std::uint32_t tree = body(index).is_awake() ? scene_.articulated[index].tree : no_tree;
+        return tree == no_tree ? 0 : scene_.trees[tree].joint_end - scene_.trees[tree].first_joint;
+    }
+
+    Closure closure_of(std::uint32_t joint, bool closes) {
+        const JointDescription& d = scene_.joints[joint].description;
+        Closure closure{};
+        closure.joint = joint;
+        closure.closes = closes;
+        closure.a = {d.body_a, tree_of(d.body_a), {}};
+        closure.b = {d.body_b, tree_of(d.body_b), {}};
+        return closure;
+    }
+
+    void add_closing(std::uint32_t index) {
+        Joint& joint = scene_.joints[index];
+        joint.in_tree = joint.closes_loop = joint.turns_in_tree = true;
+        scene_.closures.push_reserved(closure_of(index, true));
+    }
+
+    // What their joints turn is solved with them, and so are their limits. How many joints they have.
+    std::size_t add_trees(ClosureRange& range) {
+        std::size_t joints = 0;
+        for (std::uint32_t i = range.first; i < range.end; ++i) {
+            const Closure closing = scene_.closures[i];
+            for (const ClosureSide* side : {&closing.a, &closing.b}) {
+                if (side->tree != no_tree && !scene_.trees[side->tree].has_closures()) {
+                    ArticulatedTree& tree = scene_.trees[side->tree];
+                    add_tree(tree, range);
+                    joints += tree.joint_end - tree.first_joint;
+                }
+            }
+        }
+        const std::uint32_t end_of_closing = range.end;
+        range.end = static_cast<std::uint32_t>(scene_.closures.size());
+        for (std::uint32_t i = range.first; i < end_of_closing; ++i) {
+            for (const ClosureSide* side : {&scene_.closures[i].a, &scene_.closures[i].b}) {
+                if (side->tree != no_tree) {
+                    scene_.trees[side->tree].closure_end = range.end;
+                }
+            }
+        }
+        return joints;
+    }
+    void add_tree(ArticulatedTree& tree, const ClosureRange& range) {
+        if (!tree.is_uneven) {
+            find_fine_shares(scene_, tree);
+        }
+        tree.first_closure = range.first;
+        tree.closure_end = range.end;
+        for (std::uint32_t i = tree.first_joint; i < tree.joint_end; ++i) {
+            const ArticulatedJoint& part = scene_.tree_joints[i];
+            scene_.joints[part.joint].turns_in_tree = true;
+            if (has_limits(scene_.joints[part.joint].constants)) {
+                Closure closure = closure_of(part.joint, false);
+                closure.pair_share = pair_share_of(closure, range);
+                scene_.closures.push_reserved(closure);
+            }
+        }
+    }
+
+    // Of a body that is alone: one by itself.
+    std::uint32_t tree_of(std::uint32_t index) {
+        ArticulatedBody& part = scene_.articulated[index];
+        if (!body(index).is_awake()) {
+            return no_tree;
+        }
+        if (part.tree == no_tree) {
+            ArticulatedTree tree{};
+            tree.first_body = static_cast<std::uint32_t>(scene_.tree_bodies.size());
+            tree.body_end = tree.first_body + 1;
+            tree.first_joint = tree.joint_end = static_cast<std::uint32_t>(scene_.tree_joints.size());
+            tree.lightest = index;
+            part.tree = static_cast<std::uint32_t>(scene_.trees.size());
+            part.share = std::int64_t{1} << 32;
+            part.incoming = no_joint;
+            scene_.tree_bodies.push_reserved(index);
+            scene_.trees.push_reserved(tree);
+        }
+        return part.tree;
+    }
+
+    // Of all trees in the lightest body of any.
+    void find_shares(ClosureRange& range) {
+        InverseMass greatest{};
+        const auto for_each_side = [&](const auto& use) {
+            for (std::uint32_t i = range.first; i < range.end; ++i) {
+                for (const ClosureSide* side : {&scene_.closures[i].a, &scene_.closures[i].b}) {
+                    if (side->tree != no_tree) {
+                        use(scene_.trees[side->tree]);
+                    }
+                }
+            }
+        };
+        for_each_side([&](const ArticulatedTree& tree) {
+            const InverseMass& mass = body(tree.lightest).inverse_mass;
+            greatest = heavier(greatest, mass) ? mass : greatest;
+        });
+        for_each_side([&](ArticulatedTree& tree) {
+            tree.figure_share = share_of(body(tree.lightest).inverse_mass, greatest);
+        });
+        range.lightest = greatest;
+        for (std::uint32_t i = range.first; i < range.end; ++i) {
+            scene_.closures[i].pair_share = pair_share_of(scene_.closures[i], range);
+        }
+    }
+    std::int64_t pair_share_of(const Closure& closure, const ClosureRange& range) const {
+        std::int64_t share = 0;
+        for (const ClosureSide* side : {&closure.a, &closure.b}) {
+            if (side->tree != no_tree) {
+                share = std::max(share, share_of(body(side->body).inverse_mass, range.lightest));
+            }
+        }
+        return share;
+    }
+    // With 32 fraction bits.
+    static std::int64_t share_of(const InverseMass& mass, const InverseMass& greatest) {
+        return std::int64_t{share_in_greater(mass, greatest)} * 4;
+    }
+
+    RigidScene& scene_;
+};
+
+} // namespace
+
+void find_closures(RigidScene& scene) {
+    if (!scene.joints.empty()) {
+        ClosureSearch(scene).find();
+    }
+}
+
+} // namespace lks

@@ -1,0 +1,225 @@
+#include "rigid/closures.h"
+
+#include <algorithm>
+
+#include "rigid/closure_rows.h"
+#include "rigid/figures.h"
+
+namespace lks {
+namespace {
+
+using namespace tree_detail;
+
+// How soft rows are: 2^-8 of what their bodies by themselves give way by. What that leaves is solved for
+// again (rigid/closure_system.h); what is held twice, of which nothing is left, is not pushed much harder
+// than what is not.
+constexpr int give_shift = 8;
+// Where that moves bodies further than they may be moved at once it is eight times as soft, twice.
+constexpr int softer_shift = 3;
+constexpr std::int64_t greatest_bend = 8;
+
+// A push of so much, World. To the nearest: what is always rounded one way turns thin bodies in the end.
+Wrench push_times(const Wrench& unit, std::int64_t push) {
+    return {rounded_share<fine_fraction_bits>(push, unit.force),
+            rounded_share<fine_fraction_bits>(push, unit.torque)};
+}
+
+class FigureClosures {
+public:
+    FigureClosures(RigidScene& scene, const FigureRange& figure, bool in_substep)
+        : scene_(scene), figure_(figure), range_(scene.closure_ranges[figure.closures]),
+          rows_(scene, range_, in_substep), in_substep_(in_substep) {}
+
+    void factor() {
+        for_each_tree([this](ClosureTree tree) { tree.factor(in_substep_); });
+        rows_.place();
+        rows_.for_each_row([this](const Closure& closure, const ClosureRow& row, std::uint32_t number) {
+            find_column(closure, row, number);
+        });
+    }
+
+    void solve() {
+        for_each_tree([this](ClosureTree tree) { tree.solve(in_substep_); });
+        if (!rows_.measure(unknowns_)) {
+            factor();
+            static_cast<void>(rows_.measure(unknowns_));
+        }
+        for (int softer = give_shift;; softer -= softer_shift) {
+            solve_rows(matrix(), unknowns_, rows_.count(), softer);
+            push();
+            if (softer < softer_shift || !bends_too_far()) {
+                break;
+            }
+        }
+        move();
+    }
+
+    // By more than a tenth of what rows that don't push are let be.
+    bool is_apart() {
+        static_cast<void>(rows_.measure(unknowns_));
+        return std::any_of(unknowns_, unknowns_ + rows_.count(), [](const ClosureUnknown& row) {
+            const std::int64_t left =
+                row.side == 0 ? row.left : std::max<std::int64_t>(-row.side * row.left, 0);
+            return left > row.slack / 10 || left < -row.slack / 10;
+        });
+    }
+
+    // What is undone strains none. True: there is one.
+    bool hold_springs() {
+        bool any = rows_.hold_springs();
+        for_each_part(scene_, figure_, Part::tree,
+                      [&](std::uint32_t i) { any = any || scene_.trees[i].has_springs; });
+        return any;
+    }
+
+    void make_units() {
+        for_each_tree([](ClosureTree tree) { tree.make_units(); });
+    }
+
+private:
+    template <typename Use>
+    void for_each_tree(const Use& use) {
+        for_each_part(scene_, figure_, Part::tree, [&](std::uint32_t i) {
+            if (scene_.trees[i].has_closures()) {
+                use(ClosureTree(scene_, scene_.trees[i]));
+            }
+        });
+    }
+    ClosureTree tree_of(const ClosureSide& side) const {
+        return ClosureTree(scene_, scene_.trees[side.tree]);
+    }
+    std::int64_t* matrix() { return scene_.closure_matrix.begin() + range_.first_entry; }
+
+    // How all rows from this one on move by a push in it.
+    void find_column(const Closure& closure, const ClosureRow& row, std::uint32_t column) {
+        const std::int64_t push = scaled_by(world_one, row.scale);
+        for_each_side_tree(closure, [](ClosureTree tree) { tree.begin(); });
+        rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
+            tree_of(side).add_own_motion(
+                side.body, push_times(rows_.push_of(side, row, is_a), rows_.in_tree(side, push)));
+        });
+        for_each_side_tree(closure, [](ClosureTree tree) { tree.spread(); });
+        rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
+            tree_of(side).add_push(side.body,
+                                   push_times(rows_.push_of(side, row, is_a), rows_.in_tree(side, push)));
+        });
+        rows_.for_each_row([&](const Closure& other, const ClosureRow& moved, std::uint32_t number) {
+            if (number >= column) {
+                matrix()[entry_of(number, column)] = scaled_by(motion_of(other, moved, closure), moved.scale);
+            }
+        });
+        std::int64_t& entry = matrix()[entry_of(column, column)];
+        entry = plus(entry, scaled_by(rows_.spring_give(closure, row), 2 * row.scale));
+    }
+    // By what the trees of the pushed one have been done.
+    std::int64_t motion_of(const Closure& closure, const ClosureRow& row, const Closure& pushed) const {
+        std::int64_t motion = 0;
+        rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
+            if (side.tree == pushed.a.tree || side.tree == pushed.b.tree) {
+                motion = plus(motion, tree_of(side).motion_of(side.body, rows_.push_of(side, row, is_a)));
+            }
+        });
+        return motion;
+    }
+    template <typename Use>
+    void for_each_side_tree(const Closure& closure, const Use& use) {
+        rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
+            if (is_a || closure.a.tree != closure.b.tree) {
+                use(tree_of(side));
+            }
+        });
+    }
+
+    // use(side, push)
+    template <typename Use>
+    void for_each_push(const Use& use) {
+        rows_.for_each_row([&](const Closure& closure, const ClosureRow& row, std::uint32_t number) {
+            const std::int64_t push = scaled_by(unknowns_[number].more, row.scale);
+            if (push == 0) {
+                return;
+            }
+            rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
+                use(side, push_times(rows_.push_of(side, row, number, is_a), rows_.in_tree(side, push)));
+            });
+        });
+    }
+
+    void push() {
+        for_each_tree([](ClosureTree tree) { tree.begin(); });
+        for_each_push([this](const ClosureSide& side, const Wrench& push) {
+            tree_of(side).add_own_motion(side.body, push);
+        });
+        for_each_tree([](ClosureTree tree) { tree.spread(); });
+        for_each_push(
+            [this](const ClosureSide& side, const Wrench& push) { tree_of(side).add_push(side.body, push); });
+    }
+
+    // So far that what turns aside from the first order is several times what was to be moved: near to a pose
+    // in which the rows can't be brought to zero at all.
+    bool bends_too_far() {
+        std::int64_t bent = 0;
+        for_each_tree([&](const ClosureTree& tree) { bent = std::max(bent, tree.greatest_bend()); });
+        return bent / greatest_bend > to_be_moved();
+    }
+    std::int64_t to_be_moved() {
+        std::int64_t most = 0;
+        rows_.for_each_row([&](const Closure&, const ClosureRow& row, std::uint32_t i) {
+            const ClosureUnknown& unknown = unknowns_[i];
+            const std::int64_t moved =
+                unknown.pushes ? unknown.left : multiply_40(matrix()[entry_of(i, i)], unknown.more);
+            const std::int64_t size = scaled_by(moved < 0 ? -moved : moved, -row.scale);
+            most = std::max(most, size);
+        });
+        return most;
+    }
+
+    void move() {
+        for_each_tree([this](ClosureTree tree) {
+            tree.move();
+            if (in_substep_) {
+                tree.keep_pushes();
+            }
+        });
+        if (in_substep_) {
+            rows_.keep_pushes(unknowns_);
+        }
+    }
+
+    RigidScene& scene_;
+    const FigureRange& figure_;
+    ClosureRange& range_;
+    ClosureRows rows_;
+    bool in_substep_;
+    ClosureUnknown unknowns_[most_closure_rows];
+};
+
+} // namespace
+
+void factor_closures(RigidScene& scene, const FigureRange& figure) {
+    if (figure.closures != no_closures) {
+        FigureClosures(scene, figure, true).factor();
+    }
+}
+
+void solve_closures(RigidScene& scene, const FigureRange& figure) {
+    if (figure.closures != no_closures) {
+        FigureClosures(scene, figure, true).solve();
+    }
+}
+
+void undo_closures(RigidScene& scene, const FigureRange& figure) {
+    if (figure.closures == no_closures) {
+        return;
+    }
+    constexpr int rounds = 2;
+    FigureClosures closures(scene, figure, false);
+    if (closures.hold_springs()) {
+        closures.factor();
+    }
+    for (int round = 0; round < rounds && (round == 0 || closures.is_apart()); ++round) {
+        closures.solve();
+    }
+    closures.make_units();
+}
+
+} // namespace lks
