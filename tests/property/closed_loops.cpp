@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 #include "support/mechanism.h"
+#include "support/ring.h"
 #include "support/sanitised.h"
 
 using namespace support;
@@ -181,32 +181,9 @@ double apart_on_wishbones(std::uint32_t substeps) {
     return worst;
 }
 
-// Links in a ring, hung up at one of them.
 double apart_in_ring(std::uint32_t substeps, int count) {
     World world(world_def(60, substeps));
-    const lks_body_id anchor = add_anchor(world, {});
-    std::vector<lks_body_id> links;
-    std::vector<lks_joint_id> joints;
-    const double radius = 0.2 / std::sin(std::numbers::pi / count);
-    for (int i = 0; i < count; ++i) {
-        const double turned = 2 * std::numbers::pi * i / count;
-        lks_body_def def = lks_default_body_def();
-        def.mass = fixed(2);
-        def.transform.rotation = about(0, 0, 1, 360.0 * i / count + 90);
-        const double inner = radius * std::cos(std::numbers::pi / count);
-        links.push_back(add_body(world, capsule_shape(0.04, 0.12),
-                                 fixed(inner * std::sin(turned), -inner * std::cos(turned), 0), def));
-    }
-    const auto link = [&](lks_body_id a, double ya, lks_body_id b, double yb) {
-        lks_joint_def joint = lks_default_joint_def();
-        joint.frame_a.position = fixed(0, ya, 0);
-        joint.frame_b.position = fixed(0, yb, 0);
-        joints.push_back(add_joint(world, joint, a, b));
-    };
-    for (int i = 0; i < count; ++i) {
-        link(links[static_cast<std::size_t>(i)], -0.2, links[static_cast<std::size_t>((i + 1) % count)], 0.2);
-    }
-    link(anchor, 0, links[static_cast<std::size_t>(count / 2)], 0);
+    const std::vector<lks_joint_id> joints = hang_ring(world, count);
     double worst = 0;
     for (int tick = 0; tick < 300; ++tick) {
         world.step();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "support/bodies.h"
+#include "support/ring.h"
 #include "support/spun_limb.h"
 
 using namespace support;
@@ -224,32 +225,8 @@ TEST_CASE("a chain of ten stays together, up to ten thousand to one") {
 }
 
 TEST_CASE("joints that close a loop are held with those of their tree") {
-    // A ring of eight, hung up at one of them.
-    constexpr int count = 8;
     World world(world_def(60, 8));
-    const lks_body_id anchor = add_anchor(world, {});
-    std::vector<lks_body_id> links;
-    std::vector<lks_joint_id> joints;
-    const double radius = 0.2 / std::sin(pi / count);
-    for (int i = 0; i < count; ++i) {
-        const double turned = 2 * pi * i / count;
-        lks_body_def def = lks_default_body_def();
-        def.mass = fixed(2);
-        def.transform.rotation = about(0, 0, 1, 360.0 * i / count + 90);
-        const double inner = radius * std::cos(pi / count);
-        links.push_back(add_body(world, capsule_shape(0.04, 0.12),
-                                 fixed(inner * std::sin(turned), -inner * std::cos(turned), 0), def));
-    }
-    const auto join = [&](lks_body_id a, double ya, lks_body_id b, double yb) {
-        lks_joint_def joint = lks_default_joint_def();
-        joint.frame_a.position = fixed(0, ya, 0);
-        joint.frame_b.position = fixed(0, yb, 0);
-        joints.push_back(add_joint(world, joint, a, b));
-    };
-    for (int i = 0; i < count; ++i) {
-        join(links[static_cast<std::size_t>(i)], -0.2, links[static_cast<std::size_t>((i + 1) % count)], 0.2);
-    }
-    join(anchor, 0, links[count / 2], 0);
+    const std::vector<lks_joint_id> joints = hang_ring(world, 8);
     double first = 0;
     double late = 0;
     for (int tick = 0; tick < 600; ++tick) {

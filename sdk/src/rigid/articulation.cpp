@@ -242,9 +242,6 @@ public:
         }
     }
 
-    // As hold_springs has left them.
-    void keep_springs() { springs_give_ = false; }
-
     // Back to what the bodies' descriptions have.
     void raise_exponents() {
         for_each_body([](Body& body, ArticulatedBody& part) {
@@ -404,13 +401,6 @@ void undo_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     if (tree.is_uneven) {
         all.raise_exponents();
     }
-}
-
-void bring_tree_together(RigidScene& scene, const ArticulatedTree& tree) {
-    Tree all(scene, tree);
-    all.keep_springs();
-    all.bring_together();
-    all.make_units();
 }
 
 } // namespace lks

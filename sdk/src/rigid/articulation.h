@@ -48,8 +48,6 @@ void shift_from_outside(RigidScene& scene, const ArticulatedTree& tree, std::uin
 void stiffen_further(RigidScene& scene, const ArticulatedTree& tree);
 // Once velocities are known: all errors of its joints (undo_error, and the points), without giving speed.
 void undo_articulation(RigidScene& scene, const ArticulatedTree& tree);
-// After that, where something else has moved its bodies: the points again.
-void bring_tree_together(RigidScene& scene, const ArticulatedTree& tree);
 
 // Its parts, for trees that are solved side by side (rigid/wide_trees.h). Before the factors: bodies turn as
 // heavily as a substep can follow.

@@ -40,16 +40,11 @@ inline fixed::Vec3 push_down(RigidScene& scene, const ArticulatedTree& tree, con
     return push;
 }
 
-// What a torque does to a body by itself, and a force.
+// What a torque does to a body by itself.
 inline fixed::Vec3 own_turn_in_tree(const Body& body, const ArticulatedTree& tree,
                                     const ArticulatedBody& part, const fixed::Vec3& torque) {
     return tree.is_uneven ? own_turn<uneven_fraction_bits>(body, part.fine_share, torque)
                           : own_turn(body, part.share, torque);
-}
-inline fixed::Vec3 own_shift_in_tree(const ArticulatedTree& tree, const ArticulatedBody& part,
-                                     const fixed::Vec3& force) {
-    return tree.is_uneven ? rounded_share<uneven_fraction_bits>(part.fine_share, force)
-                          : rounded_share(part.share, force);
 }
 
 // What all pushes do to it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 #include "rigid/articulation.h"
 #include "rigid/articulation_joint.h"
@@ -25,57 +26,67 @@ constexpr std::int64_t far_from_limit = world_one / 32;
 // The cosine of what a way, or an axis, may turn by until its factors are found anew, 30 fraction bits.
 constexpr std::int64_t least_cosine = (std::int64_t{1} << 30) - (std::int64_t{1} << 25);
 
-std::uint32_t closing_rows(const Closure& closure, const Joint& joint) {
-    const std::uint32_t kind = joint.description.kind;
-    return !closure.closes              ? 0
-           : kind == LKS_JOINT_DISTANCE ? 1
-           : kind == LKS_JOINT_HINGE    ? 5
-           : kind == LKS_JOINT_FIXED    ? 6
-                                        : 3;
+bool is_near(const HeldRow (&limits)[most_held_rows], std::uint32_t count, std::int64_t margin) {
+    return std::any_of(limits, limits + count,
+                       [margin](const HeldRow& limit) { return limit.error < margin || limit.push > 0; });
 }
 
-std::uint32_t limits_of(const Joint& joint, const Body& a, const Body& b, bool in_substep,
-                        HeldRow (&rows)[most_held_rows]) {
-    return limit_rows(joint, a, b, in_substep, rows, 0);
+bool is_along(const ClosureRow& row) {
+    return row.kind == ClosureRow::Kind::point || row.kind == ClosureRow::Kind::distance;
+}
+
+Vec3 to_world(const Direction& way) {
+    return {world_from_direction(way.x), world_from_direction(way.y), world_from_direction(way.z)};
 }
 
 } // namespace
 
+std::uint32_t closing_rows(const Joint& joint) {
+    const std::uint32_t kind = joint.description.kind;
+    return kind == LKS_JOINT_DISTANCE ? 1 : kind == LKS_JOINT_FIXED ? 6 : kind == LKS_JOINT_HINGE ? 5 : 3;
+}
+
 std::int64_t scaled_by(std::int64_t value, int up) {
     constexpr std::int64_t greatest = std::int64_t{1} << 58;
     if (up <= 0) {
-        return fixed::shift_right_rounded(value, -up);
+        return std::clamp(fixed::shift_right_rounded(value, -up), -greatest, greatest);
     }
     const std::int64_t most = greatest >> up;
     return std::clamp(value, -most, most) * (std::int64_t{1} << up);
 }
 
 void ClosureRows::place() {
-    const std::int64_t margin = find_margin();
     std::uint32_t closing = 0; // rows that are still to come
-    for_each([&](const Closure& closure) { closing += closing_rows(closure, scene_.joints[closure.joint]); });
+    for_each([&](const Closure& closure) { closing += rows_to_close(closure); });
+    const std::int64_t margin = find_margin(range_.row_room - closing);
     range_.row_count = 0;
     for_each([&](Closure& closure) {
         closure.first_row = range_.row_count;
         closure.row_count = 0;
         place(closure);
-        closing -= closing_rows(closure, scene_.joints[closure.joint]);
+        closing -= rows_to_close(closure);
         place_limits(closure, margin, range_.row_room - closing);
     });
 }
 
+std::uint32_t ClosureRows::rows_to_close(const Closure& closure) const {
+    return closure.closes ? closing_rows(scene_.joints[closure.joint]) : 0;
+}
+
 // How near limits are of which there is room for all.
-std::int64_t ClosureRows::find_margin() {
+std::int64_t ClosureRows::find_margin(std::uint32_t room) {
     constexpr std::int64_t margins[] = {far_from_limit, far_from_limit / 4, far_from_limit / 16};
-    for (const std::int64_t margin : margins) {
-        std::uint32_t count = 0;
-        for_each([&](const Closure& closure) {
-            HeldRow limits[most_held_rows];
-            count +=
-                closing_rows(closure, scene_.joints[closure.joint]) + limits_within(closure, margin, limits);
-        });
-        if (count <= range_.row_room) {
-            return margin;
+    std::uint32_t counts[std::size(margins)] = {};
+    for_each([&](const Closure& closure) {
+        HeldRow limits[most_held_rows];
+        const std::uint32_t count = limits_of(closure, limits);
+        for (std::size_t i = 0; i < std::size(margins); ++i) {
+            counts[i] += is_near(limits, count, margins[i]) ? count : 0;
+        }
+    });
+    for (std::size_t i = 0; i < std::size(margins); ++i) {
+        if (counts[i] <= room) {
+            return margins[i];
         }
     }
     return 0;
@@ -102,22 +113,16 @@ void ClosureRows::place(Closure& closure) {
     }
 }
 
-// All of a joint, where one is so near, or pushes.
-std::uint32_t ClosureRows::limits_within(const Closure& closure, std::int64_t margin,
-                                         HeldRow (&limits)[most_held_rows]) const {
-    const Joint& joint = scene_.joints[closure.joint];
-    const std::uint32_t count = limits_of(joint, body_a(closure), body_b(closure), in_substep_, limits);
-    const bool near = std::any_of(limits, limits + count, [margin](const HeldRow& limit) {
-        return limit.error < margin || limit.push > 0;
-    });
-    return near ? count : 0;
+std::uint32_t ClosureRows::limits_of(const Closure& closure, HeldRow (&limits)[most_held_rows]) const {
+    return limit_rows(scene_.joints[closure.joint], body_a(closure), body_b(closure), in_substep_, limits, 0);
 }
 
+// All of a joint, where one is so near, or pushes.
 void ClosureRows::place_limits(Closure& closure, std::int64_t margin, std::uint32_t room) {
     HeldRow limits[most_held_rows];
-    const std::uint32_t count = limits_within(closure, margin, limits);
+    const std::uint32_t count = limits_of(closure, limits);
     Joint& joint = scene_.joints[closure.joint];
-    joint.limits_in_tree = count != 0 && range_.row_count + count <= room;
+    joint.limits_in_tree = is_near(limits, count, margin) && range_.row_count + count <= room;
     for (std::uint32_t i = 0; joint.limits_in_tree && i < count; ++i) {
         add(closure, ClosureRow::Kind::limit, limits[i].axis, limits[i].kind);
     }
@@ -129,12 +134,10 @@ void ClosureRows::add(Closure& closure, ClosureRow::Kind kind, const Direction& 
     row.kind = kind;
     row.limit = limit;
     row.along = along;
-    const bool pushes = kind == ClosureRow::Kind::point || kind == ClosureRow::Kind::distance;
     for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
-        const Vec3 force{world_from_direction(along.x), world_from_direction(along.y),
-                         world_from_direction(along.z)};
         (is_a ? row.torque_a : row.torque_b) =
-            pushes ? cross_32(side.lever, force) : fine_axis_in_units(scene_.bodies[side.body], joint, along);
+            is_along(row) ? cross_32(side.lever, to_world(along))
+                          : fine_axis_in_units(scene_.bodies[side.body], joint, along);
     });
     const std::int64_t own = std::max<std::int64_t>(own_give(closure, row), 1);
     row.scale = (std::countl_zero(static_cast<std::uint64_t>(own)) - (63 - fine_fraction_bits)) / 2;
@@ -143,37 +146,32 @@ void ClosureRows::add(Closure& closure, ClosureRow::Kind kind, const Direction& 
     ++range_.row_count;
 }
 
-Wrench ClosureRows::push_of(const ClosureSide&, const ClosureRow& row, bool is_a) const {
-    Wrench push{{0, 0, 0}, is_a ? row.torque_a : row.torque_b};
-    if (row.kind == ClosureRow::Kind::point || row.kind == ClosureRow::Kind::distance) {
-        push.force = {world_from_direction(row.along.x), world_from_direction(row.along.y),
-                      world_from_direction(row.along.z)};
-    }
+Wrench ClosureRows::push_of(const ClosureRow& row, bool is_a) {
+    const Wrench push{is_along(row) ? to_world(row.along) : Vec3{0, 0, 0},
+                      is_a ? row.torque_a : row.torque_b};
     return is_a ? Wrench{-push.force, -push.torque} : push;
 }
 
 Wrench ClosureRows::push_of(const ClosureSide& side, const ClosureRow& row, std::uint32_t number,
                             bool is_a) const {
     if (row.kind != ClosureRow::Kind::distance) {
-        return push_of(side, row, is_a);
+        return push_of(row, is_a);
     }
-    const Direction& way = ways_[number];
-    const Vec3 force{world_from_direction(way.x), world_from_direction(way.y), world_from_direction(way.z)};
-    const Vec3 signed_force = is_a ? -force : force;
-    return {signed_force, cross_32(side.lever, signed_force)};
+    const Vec3 force = is_a ? -to_world(ways_[number]) : to_world(ways_[number]);
+    return {force, cross_32(side.lever, force)};
 }
 
 std::int64_t ClosureRows::own_give(const Closure& closure, const ClosureRow& row) const {
     std::int64_t give = 0;
     for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
         const ClosureTree tree(scene_, scene_.trees[side.tree]);
-        give = plus(give, in_tree(side, tree.own_give(side.body, push_of(side, row, is_a))));
+        give = plus(give, in_tree(side, tree.own_give(side.body, push_of(row, is_a))));
     });
     return give;
 }
 
 std::int64_t ClosureRows::spring_give(const Closure& closure, const ClosureRow& row) const {
-    if (!in_substep_ || row.kind == ClosureRow::Kind::turn || row.kind == ClosureRow::Kind::limit) {
+    if (!in_substep_ || !is_along(row)) {
         return 0;
     }
     const std::int64_t give = points_give(scene_.joints[closure.joint], closure.pair_share);
@@ -237,8 +235,7 @@ ClosureRows::Measured ClosureRows::measure(const Closure& closure) const {
         measured.turned = turn_error(joint, body_a(closure), body_b(closure), in_substep_);
     }
     if (joint.limits_in_tree) {
-        measured.limit_count =
-            limits_of(joint, body_a(closure), body_b(closure), in_substep_, measured.limits);
+        measured.limit_count = limits_of(closure, measured.limits);
     }
     return measured;
 }

@@ -47,7 +47,7 @@ public:
         }
     }
     // Of a unit push in the row, in the tree's unit, or of one along the way that a distance has by now.
-    Wrench push_of(const ClosureSide& side, const ClosureRow& row, bool is_a) const;
+    static Wrench push_of(const ClosureRow& row, bool is_a);
     Wrench push_of(const ClosureSide& side, const ClosureRow& row, std::uint32_t number, bool is_a) const;
     // By a push of one in the figure's unit: what its bodies by themselves give way by, and what a spring
     // does.
@@ -68,9 +68,9 @@ private:
     const Body& body_a(const Closure& closure) const { return scene_.bodies[closure.a.body]; }
     const Body& body_b(const Closure& closure) const { return scene_.bodies[closure.b.body]; }
 
-    std::int64_t find_margin();
-    std::uint32_t limits_within(const Closure& closure, std::int64_t margin,
-                                HeldRow (&limits)[most_held_rows]) const;
+    std::uint32_t rows_to_close(const Closure& closure) const;
+    std::int64_t find_margin(std::uint32_t room);
+    std::uint32_t limits_of(const Closure& closure, HeldRow (&limits)[most_held_rows]) const;
     void place(Closure& closure);
     void place_limits(Closure& closure, std::int64_t margin, std::uint32_t room);
     void add(Closure& closure, ClosureRow::Kind kind, const fixed::Direction& along,
@@ -94,6 +94,9 @@ private:
     bool in_substep_;
     fixed::Direction ways_[most_closure_rows]; // of distances, by now
 };
+
+// Of a joint that closes a loop: what it holds.
+std::uint32_t closing_rows(const Joint& joint);
 
 // value · 2^up, within 2^58.
 std::int64_t scaled_by(std::int64_t value, int up);

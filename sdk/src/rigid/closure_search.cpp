@@ -2,6 +2,7 @@
 
 #include "memory/sort_numbers.h"
 #include "rigid/articulation.h"
+#include "rigid/closure_rows.h"
 #include "rigid/closures.h"
 #include "rigid/joint_distance.h"
 
@@ -34,11 +35,6 @@ private:
     static std::uint32_t figure_of(std::uint64_t found) { return static_cast<std::uint32_t>(found >> 32); }
     Joint& joint_of(std::uint64_t found) { return scene_.joints[static_cast<std::uint32_t>(found)]; }
     const Body& body(std::uint32_t index) const { return scene_.bodies[index]; }
-
-    static std::uint32_t rows_of(const Joint& joint) {
-        const std::uint32_t kind = joint.description.kind;
-        return kind == LKS_JOINT_DISTANCE ? 1 : kind == LKS_JOINT_FIXED ? 6 : kind == LKS_JOINT_HINGE ? 5 : 3;
-    }
 
     void find_candidates() {
         mark_jointed();
@@ -95,7 +91,7 @@ private:
         std::size_t joints = 0; // of the greatest tree
         for (std::size_t i = first; i < end; ++i) {
             const Joint& joint = joint_of(scene_.closing_joints[i]);
-            rows += rows_of(joint);
+            rows += closing_rows(joint);
             joints = std::max(
                 {joints, joints_beside(joint.description.body_a), joints_beside(joint.description.body_b)});
         }

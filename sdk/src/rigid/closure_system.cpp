@@ -23,16 +23,12 @@ public:
             ClosureUnknown& row = rows_[i];
             row.pushes = row.side == 0 || toward(row, row.pushed) > 0 || toward(row, -row.left) > 0;
         }
-        Exchange exchange;
-        for (int pass = 0; pass < Exchange::most_passes; ++pass) {
-            factor();
-            find_pushes();
-            const std::uint32_t wrong = count_wrong();
-            if (wrong == 0 || pass + 1 == Exchange::most_passes) {
-                break;
-            }
-            turn_round(exchange.is_whole(wrong) ? wrong : 1);
-        }
+        exchange_rows(
+            [this] {
+                factor();
+                find_pushes();
+            },
+            [this] { return count_wrong(); }, [this](std::uint32_t count) { turn_round(count); });
         // Also where it did not come to an end.
         for (std::uint32_t i = 0; i < count_; ++i) {
             ClosureUnknown& row = rows_[i];

@@ -139,7 +139,9 @@ void ClosureTree::fold_errors(const ArticulatedJoint& part, const Joint& joint, 
     const Body& a = body_a(joint);
     const Body& b = body_b(joint);
     Vec3 apart = in_substep ? left_of_points(joint, a, b) : points_apart(joint, a, b, false);
-    clamp_vector(apart, in_substep ? greatest_step_of(joint.constants.points) : greatest_step);
+    if (!in_substep) {
+        clamp_vector(apart, greatest_step);
+    }
     std::int64_t turned[most_held_rows] = {};
     const Vec3 error = turn_error(joint, a, b, in_substep);
     for (std::uint32_t i = 0; i < rows.turn_count; ++i) {

@@ -96,12 +96,12 @@ private:
         for_each_side_tree(closure, [](ClosureTree tree) { tree.begin(); });
         rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
             tree_of(side).add_own_motion(
-                side.body, push_times(rows_.push_of(side, row, is_a), rows_.in_tree(side, push)));
+                side.body, push_times(ClosureRows::push_of(row, is_a), rows_.in_tree(side, push)));
         });
         for_each_side_tree(closure, [](ClosureTree tree) { tree.spread(); });
         rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
             tree_of(side).add_push(side.body,
-                                   push_times(rows_.push_of(side, row, is_a), rows_.in_tree(side, push)));
+                                   push_times(ClosureRows::push_of(row, is_a), rows_.in_tree(side, push)));
         });
         rows_.for_each_row([&](const Closure& other, const ClosureRow& moved, std::uint32_t number) {
             if (number >= column) {
@@ -116,7 +116,7 @@ private:
         std::int64_t motion = 0;
         rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
             if (side.tree == pushed.a.tree || side.tree == pushed.b.tree) {
-                motion = plus(motion, tree_of(side).motion_of(side.body, rows_.push_of(side, row, is_a)));
+                motion = plus(motion, tree_of(side).motion_of(side.body, ClosureRows::push_of(row, is_a)));
             }
         });
         return motion;

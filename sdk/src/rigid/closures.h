@@ -27,7 +27,7 @@ void find_closures(RigidScene& scene);
 
 // After the factors of all trees of the figure.
 void factor_closures(RigidScene& scene, const FigureRange& figure);
-// After their solve: with speed.
+// With speed: its trees that have any, which solve_articulation leaves to this, and what closes their loops.
 void solve_closures(RigidScene& scene, const FigureRange& figure);
 // Once velocities are known, and the trees' errors are undone: without.
 void undo_closures(RigidScene& scene, const FigureRange& figure);

@@ -7,25 +7,28 @@
 
 namespace lks {
 
-class Exchange {
-public:
-    // A few are enough as a rule.
-    static constexpr int most_passes = 24;
-
-    // True: all at once.
-    bool is_whole(std::uint32_t wrong) {
-        if (wrong < least_) {
-            least_ = wrong;
-            patience_ = most_patience;
-            return true;
+// solve() with those that push, count_wrong() behind it, and turn_round(count) exchanges so many of them.
+template <typename Solve, typename Count, typename Turn>
+void exchange_rows(const Solve& solve, const Count& count_wrong, const Turn& turn_round) {
+    constexpr int most_passes = 24; // a few are enough as a rule
+    constexpr int most_patience = 3;
+    std::uint32_t least = UINT32_MAX;
+    int patience = most_patience;
+    for (int pass = 0; pass < most_passes; ++pass) {
+        solve();
+        const std::uint32_t wrong = count_wrong();
+        if (wrong == 0 || pass + 1 == most_passes) {
+            return;
         }
-        return patience_-- > 0;
+        bool whole = true;
+        if (wrong < least) {
+            least = wrong;
+            patience = most_patience;
+        } else {
+            whole = patience-- > 0;
+        }
+        turn_round(whole ? wrong : 1);
     }
-
-private:
-    static constexpr int most_patience = 3;
-    std::uint32_t least_ = UINT32_MAX;
-    int patience_ = most_patience;
-};
+}
 
 } // namespace lks

@@ -76,16 +76,12 @@ public:
 
     // False: masses are uneven and somebody would turn far, and nothing was done.
     bool solve() {
-        Exchange exchange;
-        for (int pass = 0; pass < Exchange::most_passes; ++pass) {
-            factor();
-            find_pushes();
-            const std::uint32_t wrong = count_wrong();
-            if (wrong == 0 || pass + 1 == Exchange::most_passes) {
-                break;
-            }
-            turn_round(exchange.is_whole(wrong) ? wrong : 1);
-        }
+        exchange_rows(
+            [this] {
+                factor();
+                find_pushes();
+            },
+            [this] { return count_wrong(); }, [this](std::uint32_t count) { turn_round(count); });
         if (range_.is_uneven && turns_far()) {
             return false;
         }
