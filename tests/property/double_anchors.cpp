@@ -119,6 +119,9 @@ TEST_CASE("the one bone that an animation leaves to itself stays where it belong
 TEST_CASE("a humanoid that is held by both hands stays whole, within its reach and beyond") {
     for (const double span : {1.0, 1.5, 1.7}) {
         for (const std::uint32_t substeps : {8u, 20u}) {
+            if (sanitised && substeps != 8) {
+                continue;
+            }
             World world(world_def(60, substeps));
             Humanoid humanoid;
             humanoid.def.transform.position = fixed(0, 1, 0);

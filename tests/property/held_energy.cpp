@@ -215,7 +215,7 @@ TEST_CASE("a held figure with a soft joint gains next to nothing") {
         for (const double compliance : {1e-5, 1e-4}) {
             double worst = 0;
             int gaining = 0;
-            for (std::uint64_t seed = 0; seed < 8; ++seed) {
+            for (std::uint64_t seed = 0; seed < (support::sanitised ? 1 : 8); ++seed) {
                 World world(weightless(substeps));
                 Random random(seed);
                 const auto upto = [&random](int size) {

@@ -67,7 +67,9 @@ TEST_CASE("cloths with edges of a micrometre hang") {
     // In a substep of 1/1200 s gravity moves a particle by seven of their edges.
     hang({2, 1e-6, 60, 20, 60, 0.01, 40, {}, {0, 45}});
     hang({8, 1e-6, 60, 20, 60, 1e4, 300, {0, 95.5}, {0, 83}});
-    hang({64, 1e-6, 60, 20, 30, 1.5e6, 500, {0, 90}, {0, 80}});
+    if (!sanitised) {
+        hang({64, 1e-6, 60, 20, 30, 1.5e6, 500, {0, 90}, {0, 80}});
+    }
     hang({2, 1e-6, 1000, 100, 20, 0.01, 0.01});
     hang({8, 1e-6, 1000, 100, 20, 8, 8});
     hang({64, 1e-6, 1000, 100, 5, 500, 40, {0, 22}, {0, 6}});
@@ -79,8 +81,10 @@ TEST_CASE("cloths with edges of a micrometre hang") {
 TEST_CASE("cloths with edges of ten metres hang") {
     hang({2, 10, 60, 20, 600, 1e-5, 1e-4});
     hang({4, 10, 60, 20, 600, 0.1, 0.1});
-    hang({8, 10, 60, 20, 600, 0.3, 0.3});
-    hang({12, 10, 60, 20, 600, 0.4, 0.3});
+    if (!sanitised) {
+        hang({8, 10, 60, 20, 600, 0.3, 0.3});
+        hang({12, 10, 60, 20, 600, 0.4, 0.3});
+    }
 }
 
 TEST_CASE("cloths as large as an object hang whatever their number") {

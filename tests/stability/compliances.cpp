@@ -53,7 +53,9 @@ struct Bounds {
 void hang_all(double stretch, bool tethered, const Bounds& bounds) {
     Worst fixed, single;
     for (const double other : values) {
-        hang(fixed, single, tethered, stretch, other, stretch);
+        if (!sanitised) {
+            hang(fixed, single, tethered, stretch, other, stretch);
+        }
         hang(fixed, single, tethered, stretch, other, other);
     }
     const std::string name = named(tethered ? "tethered cloth" : "cloth", " 12 × 12, stretch ", stretch,
@@ -73,7 +75,7 @@ void hang_all(double stretch, bool tethered, const Bounds& bounds) {
 
 TEST_CASE("compliances from 0 to 1000 m/N side by side gain no energy") {
     for (const bool tethered : {false, true}) {
-        if (tethered && support::sanitised) {
+        if (tethered && sanitised) {
             continue;
         }
         // What is limp may come together: that counts as 100 %.

@@ -73,18 +73,20 @@ void start_all(const std::string& name, const Kind& kind, const AllBounds& bound
         };
         return Vector{axis(), axis(), axis()};
     };
-    start(
-        name + ", mirrored", kind, 5000,
-        [](std::size_t, const Vector& p) {
-            return Vector{-p.x, -p.y, p.z};
-        },
-        bounds.mirrored);
-    start(
-        name + ", inside out row by row", kind, 1500,
-        [](std::size_t, const Vector& p) {
-            return Vector{p.x, std::fmod(std::abs(p.y), 0.2), 0};
-        },
-        bounds.inside_out);
+    if (!sanitised) {
+        start(
+            name + ", mirrored", kind, 5000,
+            [](std::size_t, const Vector& p) {
+                return Vector{-p.x, -p.y, p.z};
+            },
+            bounds.mirrored);
+        start(
+            name + ", inside out row by row", kind, 1500,
+            [](std::size_t, const Vector& p) {
+                return Vector{p.x, std::fmod(std::abs(p.y), 0.2), 0};
+            },
+            bounds.inside_out);
+    }
     start(
         name + ", crumpled into 20 cm", kind, 2500, [&](std::size_t, const Vector&) { return within(0.1); },
         bounds.into_20_cm);

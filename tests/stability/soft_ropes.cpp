@@ -8,6 +8,7 @@
 
 #include "stability/support/table.h"
 #include "stability/support/trial.h"
+#include "support/sanitised.h"
 
 using namespace support;
 using namespace stability;
@@ -63,6 +64,9 @@ void swing_all(const Rate& rate) {
         for (const double end : {0.01, 0.1, 1., 10.}) {
             for (const double compliance : {1e-4, 1e-3, 1e-2, 1e-1}) {
                 for (const double critical : {0., 0.3, 1., 10.}) {
+                    if (sanitised && (critical == 0.3 || critical == 1)) {
+                        continue;
+                    }
                     const double damping = critical * 2 * std::sqrt(0.01 / compliance);
                     const Chain chain = bungee(segments, end, compliance, damping);
                     const Asset rope = chain.build();

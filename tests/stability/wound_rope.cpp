@@ -231,7 +231,7 @@ TEST_CASE(
                                  {5, 0, 240, 1, 5000, 20, 4000, 1, 15},
                                  {5, 0, 60, 5, 20000, 20, 4000, 1, 15},
                                  {5, 0, 60, 10, 200000, 20, 5000, 1, 15}};
-    // Under sanitizers all of it takes minutes: one row of each.
+    // Under sanitizers all of it takes minutes: one row of one.
     for (const MovingPole& row : lifted) {
         carry_off("lifted by 3 m and back", row, 7, lift);
         if (sanitised) {
@@ -242,22 +242,23 @@ TEST_CASE(
                                  {20, 0.5, 240, 1, 5000, 100, 5000, 60},
                                  {10, 0.2, 60, 10, 5000, 20, 4000, 1, 3}};
     for (const MovingPole& row : shaken) {
-        carry_off("shaken by 0.5 m ten times a second", row, 2, shake);
-        if (sanitised) {
-            break;
+        if (!sanitised) {
+            carry_off("shaken by 0.5 m ten times a second", row, 2, shake);
         }
     }
 }
 
 TEST_CASE("a rope wound twenty times around a pole and pulled further than it can give comes to rest") {
     pull({0.1, 150, 0.02, 7, 0.01, 2});
-    pull({0.5, 2000, 1500, 12, 0.1, 0, 7});
     if (!sanitised) {
+        pull({0.5, 2000, 1500, 12, 0.1, 0, 7});
         pull({10, 7000, 50, 12, 5, 0, 7});
     }
 }
 
 TEST_CASE("a rope wound twenty times around a pole holds a weight") {
-    wind("rope 20 times around a pole, friction 0.5", 0.5, {1e-4, 0.015, 2});
+    if (!sanitised) {
+        wind("rope 20 times around a pole, friction 0.5", 0.5, {1e-4, 0.015, 2});
+    }
     wind("rope 20 times around a smooth pole, its tail pinned", 0, {0.2, 0.3, 2});
 }
