@@ -3,6 +3,7 @@
 
 #include "big_integer.h"
 #include "fixed/int128.h"
+#include "fixed/product_sum.h"
 #include "fixed_samples.h"
 
 using namespace lks::fixed;
@@ -91,6 +92,41 @@ TEST_CASE("fixed: products over 2^32 are rounded down, and the same by halves") 
         const auto exact = static_cast<std::int64_t>((multiply(sa, sb) >> 32).lo);
         tally.expect(multiply_shift_32(sa, sb) == exact, a, b);
         tally.expect(multiply_shift_32_halves(sa, sb) == exact, a, b);
+    });
+    LKS_CHECK_TALLY(tally);
+}
+
+TEST_CASE("fixed: shifted products are to the nearest, saturate, and are the same by halves") {
+    Tally tally;
+    for_pairs(9, [&](std::uint64_t a, std::uint64_t b) {
+        const std::int64_t sa = static_cast<std::int64_t>(a), sb = static_cast<std::int64_t>(b);
+        for (const int n : {0, 1, 40, 64, 127, static_cast<int>((a ^ b) & 127)}) {
+            const std::int64_t found = multiply_shift(sa, sb, n);
+            tally.expect(found == multiply_shift_halves(sa, sb, n), a, b);
+            const Big<6> exact = shift_right_half_up(big(sa) * big(sb), n);
+            const Big<6> least = big(INT64_MIN), most = big(INT64_MAX);
+            tally.expect(big(found) == (exact < least ? least : exact > most ? most : exact), a, b);
+        }
+    });
+    LKS_CHECK_TALLY(tally);
+}
+
+TEST_CASE("fixed: sums of products are exact before they are shifted, and the same by halves") {
+    Tally tally;
+    for_pairs(10, [&](std::uint64_t a, std::uint64_t b) {
+        const std::int64_t sa = static_cast<std::int64_t>(a), sb = static_cast<std::int64_t>(b);
+        ProductSum sum;
+        HalvesProductSum by_halves;
+        for (const std::int64_t factor : {sb, sa ^ sb, std::int64_t{-1}, sb >> 7}) {
+            sum.add(sa, factor);
+            by_halves.add(sa, factor);
+        }
+        const Big<6> factors = big(sb) + big(sa ^ sb) + big(std::int64_t{-1}) + big(sb >> 7);
+        const Int128 whole = as_signed(wrapped(big(sa) * factors));
+        for (const int n : {0, 40, 64}) {
+            tally.expect(sum.shifted(n) == by_halves.shifted(n), a, b);
+            tally.expect(sum.shifted(n) == static_cast<std::int64_t>((whole >> n).lo), a, b);
+        }
     });
     LKS_CHECK_TALLY(tally);
 }

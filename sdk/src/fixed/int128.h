@@ -318,8 +318,21 @@ constexpr std::uint64_t square_root(UInt128 a) {
 }
 
 // a * b / 2^n to the nearest, half up, saturating; 0 <= n <= 127.
-constexpr std::int64_t multiply_shift(std::int64_t a, std::int64_t b, int n) {
+constexpr std::int64_t multiply_shift_halves(std::int64_t a, std::int64_t b, int n) {
     return saturate_to_int64(shift_right_rounded(multiply_signed(a, b), n));
+}
+
+// The same: with the machine's 128 bits it takes two thirds of the instructions.
+constexpr std::int64_t multiply_shift(std::int64_t a, std::int64_t b, int n) {
+#if defined(__SIZEOF_INT128__) && !defined(__wasm__)
+    __extension__ using Native = __int128;
+    const Native product = Native{a} * b;
+    const Native shifted = n == 0 ? product : ((product >> (n - 1)) + 1) >> 1;
+    const auto low = static_cast<std::int64_t>(shifted);
+    return shifted == low ? low : shifted < 0 ? INT64_MIN : INT64_MAX;
+#else
+    return multiply_shift_halves(a, b, n);
+#endif
 }
 
 // (a * x + b * y + c * z) / 2^30 to the nearest, half up; wraps. The magnitudes of a, b and c sum to less
