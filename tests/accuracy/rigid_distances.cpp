@@ -113,7 +113,7 @@ TEST_CASE("a capsule on a soft rod or rope is within 1e-5 m after a second, damp
                 check_run((damping == 0 ? "soft " : "soft and damped ") +
                               std::string(min == 0 ? "rope" : "rod") + substeps_name(substeps),
                           scene, {1e-5, 3e-5, 100},
-                          damping == 0 ? RigidBounds{1e-3, 1e-2, 30} : RigidBounds{3e-5, 3e-4, 100});
+                          damping == 0 ? RigidBounds{1e-3, 1e-2, 20} : RigidBounds{3e-5, 3e-4, 100});
             }
         }
     }

@@ -130,7 +130,7 @@ TEST_CASE("a humanoid that hangs by its hands loses its arms at the load they be
         CHECK(before <= strength * size);
         CHECK(told > strength * size);
         CHECK(told < 1.02 * strength * size);
-        CHECK(std::abs(each / told - 1) < 0.03);
+        CHECK(std::abs(each / told - 1) < 0.05); // the one bears a little more than the other
         CHECK((torn.broken[0].body_b.index == torn.bodies[left].index ||
                torn.broken[0].body_b.index == torn.bodies[right].index));
         // The rest falls, and the arms stay where they hang.

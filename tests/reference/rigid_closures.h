@@ -85,18 +85,16 @@ public:
     // Without giving speed.
     void undo_errors() {
         for (Figure& figure : figures_) {
-            bool springs = figure.springs;
             for (const std::size_t i : figure.closing) {
                 Joint& joint = joints_[i];
                 if (joint.has_soft_points()) {
-                    springs = true;
                     joint.hold_spring(bodies_[joint.a], bodies_[joint.b]);
                 }
             }
-            if (springs) {
+            if (figure.springs) {
                 factor(figure, false);
             }
-            for (int round = 0; round < 2; ++round) {
+            for (int round = 0; round < 3; ++round) {
                 solve(figure, false);
             }
         }
@@ -119,11 +117,11 @@ private:
         std::vector<std::size_t> closing;
         std::vector<std::size_t> bodies;
         std::vector<std::size_t> joints; // of its trees
-        bool springs = false;
+        bool springs = false;            // of its trees
         std::vector<Row> tree_rows;
         SymmetricSystem<Scalar> tree;
         std::vector<Row> rows;
-        std::vector<Scalar> matrix; // without what rows are softened by
+        std::vector<Scalar> matrix; // without what rows are softened by, or springs give
     };
 
     static constexpr Scalar near_limit = Scalar(0x1p-5);
@@ -255,9 +253,6 @@ private:
             for (std::size_t i = 0; i < size; ++i) {
                 figure.matrix[i * size + column] = motion(figure.rows[i]);
             }
-            if (in_substep && (row.kind == Kind::point || row.kind == Kind::distance)) {
-                figure.matrix[column * size + column] += joints_[row.joint].points_give();
-            }
         }
         clear(figure);
     }
@@ -330,13 +325,20 @@ private:
             errors.push_back(row.error);
         }
         std::vector<Scalar> pushes, tree_pushes;
+        std::vector<Scalar> matrix = figure.matrix;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const Row& row = figure.rows[i];
+            if (in_substep && (row.kind == Kind::point || row.kind == Kind::distance)) {
+                matrix[i * rows.size() + i] += joints_[row.joint].points_give();
+            }
+        }
         Scalar give = Scalar(0x1p-8);
         for (int round = 0; round < 3; ++round, give *= 8) {
             std::vector<Scalar> softness;
             for (const Row& row : figure.rows) {
                 softness.push_back(row.give * give);
             }
-            pushes = solve_held(figure.matrix, errors, 0, rows, softness);
+            pushes = solve_held(matrix, errors, 0, rows, softness);
             clear(figure);
             for (std::size_t i = 0; i < rows.size(); ++i) {
                 push(figure.rows[i], rows[i].axis, pushes[i]);

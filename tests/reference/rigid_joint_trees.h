@@ -156,17 +156,23 @@ public:
     void undo_errors(const Tree& tree) {
         bool far_off = true;
         for (int round = 0; round < 6 && far_off; ++round) {
-            far_off = false;
-            for (const std::size_t i : tree.joints) {
-                const Joint& joint = joints_[i];
-                Body& a = bodies_[joint.a];
-                Body& b = bodies_[joint.b];
-                far_off = joint.undo_turn(a, b) || far_off;
-                a.normalise();
-                b.normalise();
-            }
+            far_off = undo_turns(tree);
             solve_points(tree, false);
         }
+    }
+
+    // True: a limit was far off.
+    bool undo_turns(const Tree& tree) {
+        bool far_off = false;
+        for (const std::size_t i : tree.joints) {
+            const Joint& joint = joints_[i];
+            Body& a = bodies_[joint.a];
+            Body& b = bodies_[joint.b];
+            far_off = joint.undo_turn(a, b) || far_off;
+            a.normalise();
+            b.normalise();
+        }
+        return far_off;
     }
 
     // How far its points are to come together: in this substep, or at all.

@@ -210,7 +210,9 @@ private:
         }
         trees_.hold_springs();
         for (const JointTree<Scalar>& tree : trees_) {
-            if (!tree.held || !held_.undo_errors(tree)) {
+            if (tree.closed) { // by closures_
+                static_cast<void>(trees_.undo_turns(tree));
+            } else if (!tree.held || !held_.undo_errors(tree)) {
                 trees_.undo_errors(tree);
             }
         }

@@ -47,6 +47,7 @@ public:
         }
     }
 
+    const World& world() const { return world_; }
     // Joules, and as a share of the greatest motion.
     double gained() const { return gained_; }
     double gained_share() const { return gained_ / std::max(fastest_, 1e-9); }

@@ -50,6 +50,14 @@ struct Matrix {
     }
 };
 
+void solve(const RowSystem<CoarseRows>& system, std::int64_t (&x)[most_rows]) {
+    solve_lower(system, x);
+    for (int i = 0; i < system.count; ++i) {
+        x[i] = CoarseRows::divide(x[i], system.pivots[i]);
+    }
+    solve_upper(system, x);
+}
+
 } // namespace
 
 TEST_CASE("what a system of rows gives solves it") {

@@ -237,7 +237,7 @@ public:
                 joint.start = joint_offset(joint, body_a(joint), body_b(joint));
             }
         });
-        if (!range_.is_uneven) {
+        if (!range_.is_uneven && !range_.has_closures()) {
             factor();
         }
     }
@@ -315,7 +315,9 @@ private:
 void factor_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     Tree all(scene, tree);
     all.stiffen_bodies();
-    all.factor();
+    if (!tree.has_closures()) { // factor_closures
+        all.factor();
+    }
 }
 
 void stiffen_articulation(RigidScene& scene, const ArticulatedTree& tree) {
@@ -390,7 +392,9 @@ void finish_undoing(RigidScene& scene, const ArticulatedTree& tree, bool far_off
 void undo_articulation(RigidScene& scene, const ArticulatedTree& tree) {
     Tree all(scene, tree);
     all.hold_springs();
-    if (tree.is_held && undo_held_tree(scene, tree)) {
+    if (tree.has_closures()) { // undo_closures
+        static_cast<void>(all.undo_errors());
+    } else if (tree.is_held && undo_held_tree(scene, tree)) {
         all.bring_together();
         all.make_units();
     } else {

@@ -7,16 +7,21 @@
 
 namespace lks::tree_detail {
 
+// The greater inverse mass of its bodies in the tree's greatest.
+inline std::int64_t pair_share_of(const RigidScene& scene, const ArticulatedJoint& part) {
+    const std::int64_t share = scene.articulated[part.parent].share;
+    return part.child_moves ? std::max(share, scene.articulated[part.child].share) : share;
+}
+
 // Where it is between its bodies; and how its points part by a push along each axis (D: xx, xy, xz, yy, yz,
 // zz), and what that does to the parent.
 inline void place_joint(RigidScene& scene, ArticulatedJoint& part, fixed::Vec3 (&column_shift)[3],
                         fixed::Vec3 (&column_turn)[3], std::int64_t (&d)[6]) {
     const Joint& joint = scene.joints[part.joint];
     const ArticulatedBody& parent = scene.articulated[part.parent];
-    part.pair_share = parent.share;
+    part.pair_share = pair_share_of(scene, part);
     if (part.child_moves) {
         const ArticulatedBody& child = scene.articulated[part.child];
-        part.pair_share = std::max(part.pair_share, child.share);
         part.child_lever = lever_in_units(scene.bodies[part.child], point_of(joint, part.child_is_a));
         fixed::Vec3 shift[3];
         fixed::Vec3 turn[3];

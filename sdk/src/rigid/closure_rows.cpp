@@ -221,6 +221,7 @@ bool ClosureRows::measure(ClosureUnknown (&unknowns)[most_closure_rows]) {
             unknown.left = scaled_by(unknown.left, row.scale);
             unknown.slack = scaled_by(nearly_slack, row.scale);
             unknown.own = row.own;
+            unknown.give = scaled_by(spring_give(closure, row), 2 * row.scale);
         }
     });
     return near;
@@ -310,16 +311,13 @@ void ClosureRows::keep_push(const Closure& closure, const ClosureRow& row, std::
     }
 }
 
-bool ClosureRows::hold_springs() {
-    bool any = false;
+void ClosureRows::hold_springs() {
     for_each([&](const Closure& closure) {
         Joint& joint = scene_.joints[closure.joint];
         if (closure.closes && has_soft_points(joint.constants)) {
-            any = true;
             hold_spring(joint, body_a(closure), body_b(closure));
         }
     });
-    return any;
 }
 
 } // namespace lks

@@ -23,8 +23,8 @@ public:
     // What each has pushed more, in its scale.
     void keep_pushes(const ClosureUnknown (&unknowns)[most_closure_rows]);
 
-    // What is undone strains no spring. True: there is one.
-    bool hold_springs();
+    // What is undone strains no spring.
+    void hold_springs();
 
     std::uint32_t count() const { return range_.row_count; }
     // use(closure, row, number)

@@ -2,6 +2,7 @@
 
 #include "memory/sort_numbers.h"
 #include "rigid/articulation.h"
+#include "rigid/articulation_joint.h"
 #include "rigid/closure_rows.h"
 #include "rigid/closures.h"
 #include "rigid/joint_distance.h"
@@ -171,7 +172,8 @@ private:
         tree.first_closure = range.first;
         tree.closure_end = range.end;
         for (std::uint32_t i = tree.first_joint; i < tree.joint_end; ++i) {
-            const ArticulatedJoint& part = scene_.tree_joints[i];
+            ArticulatedJoint& part = scene_.tree_joints[i];
+            part.pair_share = tree_detail::pair_share_of(scene_, part);
             scene_.joints[part.joint].turns_in_tree = true;
             if (has_limits(scene_.joints[part.joint].constants)) {
                 Closure closure = closure_of(part.joint, false);

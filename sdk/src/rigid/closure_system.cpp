@@ -60,12 +60,15 @@ private:
             std::int64_t* const lower_i = lower_ + entry_of(i, 0);
             for (std::uint32_t j = 0; j <= i; ++j) {
                 const std::int64_t* const lower_j = lower_ + entry_of(j, 0);
-                std::int64_t rest = entry(which_[i], which_[j]);
+                fixed::ProductSum others;
                 for (std::uint32_t k = 0; k < j; ++k) {
-                    rest = minus(rest, multiply_40(scaled[k], lower_j[k]));
+                    others.add(scaled[k], lower_j[k]);
                 }
+                const std::int64_t rest =
+                    minus(entry(which_[i], which_[j]), others.shifted(fine_fraction_bits));
                 if (j == i) {
-                    pivots_[i] = invert_fine(plus(rest, rows_[which_[i]].own >> give_shift_));
+                    const ClosureUnknown& row = rows_[which_[i]];
+                    pivots_[i] = invert_fine(plus(rest, plus(row.give, row.own >> give_shift_)));
                 } else {
                     scaled[j] = rest;
                     lower_i[j] = divide(rest, pivots_[j]);
@@ -103,27 +106,34 @@ private:
 
     void solve(std::int64_t (&x)[most_closure_rows]) const {
         for (std::uint32_t i = 0; i < used_; ++i) {
+            fixed::ProductSum others;
             for (std::uint32_t k = 0; k < i; ++k) {
-                x[i] = minus(x[i], multiply_40(lower_[entry_of(i, k)], x[k]));
+                others.add(lower_[entry_of(i, k)], x[k]);
             }
+            x[i] = minus(x[i], others.shifted(fine_fraction_bits));
         }
         for (std::uint32_t i = used_; i-- > 0;) {
             x[i] = divide(x[i], pivots_[i]);
+            fixed::ProductSum others;
             for (std::uint32_t k = i + 1; k < used_; ++k) {
-                x[i] = minus(x[i], multiply_40(lower_[entry_of(k, i)], x[k]));
+                others.add(lower_[entry_of(k, i)], x[k]);
             }
+            x[i] = minus(x[i], others.shifted(fine_fraction_bits));
         }
     }
 
     // With all that is pushed more by now.
     std::int64_t left_of(std::uint32_t i) const {
-        std::int64_t left = rows_[i].left;
-        for (std::uint32_t j = 0; j < count_; ++j) {
-            if (rows_[j].more != 0) {
-                left = plus(left, multiply_40(entry(i, j), rows_[j].more));
-            }
+        fixed::ProductSum moved;
+        moved.add(rows_[i].give, rows_[i].more);
+        const std::int64_t* const row = matrix_ + entry_of(i, 0);
+        for (std::uint32_t j = 0; j <= i; ++j) {
+            moved.add(row[j], rows_[j].more);
         }
-        return left;
+        for (std::uint32_t j = i + 1; j < count_; ++j) {
+            moved.add(matrix_[entry_of(j, i)], rows_[j].more);
+        }
+        return plus(rows_[i].left, moved.shifted(fine_fraction_bits));
     }
 
     // Those that would pull, or that don't push and are exceeded.

@@ -14,6 +14,7 @@ struct ClosureUnknown {
     std::int64_t slack;  // of one that does not push: what it may exceed zero by
     int side;            // 0: it pushes both ways; −1: it pushes less than zero, or nothing; 1: more
     std::int64_t own;    // what its bodies by themselves give way by, 40 fraction bits
+    std::int64_t give;   // what its spring does
     bool pushes;
     std::int64_t more; // to be pushed
 };

@@ -81,7 +81,7 @@ void ClosureTree::factor_joint(const ArticulatedJoint& part, const Joint& joint,
             d[row][row] = plus(d[row][row], give);
         }
     }
-    lks::factor(d, rows.system);
+    Algebra::factor_rows(d, rows);
 }
 
 int ClosureTree::find_wrenches(const ClosureTreeJoint& rows, const Vec3& lever,
@@ -97,6 +97,19 @@ int ClosureTree::find_wrenches(const ClosureTreeJoint& rows, const Vec3& lever,
 std::int64_t ClosureTree::own_turn_about(std::uint32_t body, const Vec3& axis) const {
     return Algebra::dot(
         axis, own_turn<fine_fraction_bits>(scene_.bodies[body], scene_.articulated[body].fine_share, axis));
+}
+
+bool ClosureTree::is_apart() const {
+    constexpr std::int64_t most = world_one / 10000000;
+    for (std::uint32_t i = range_.first_joint; i < range_.joint_end; ++i) {
+        const Joint& joint = scene_.joints[scene_.tree_joints[i].joint];
+        const JointDescription& d = joint.description;
+        if (sum_of_magnitudes(points_apart(joint, scene_.bodies[d.body_a], scene_.bodies[d.body_b], false)) >
+            most) {
+            return true;
+        }
+    }
+    return false;
 }
 
 void ClosureTree::begin() {
@@ -205,12 +218,6 @@ void ClosureTree::add_push(std::uint32_t body, const Wrench& push) {
     ArticulatedBody& part = scene_.articulated[body];
     part.force = part.force + push.force;
     part.torque = part.torque + push.torque;
-}
-
-std::int64_t ClosureTree::motion_of(std::uint32_t body, const Wrench& way) const {
-    const ArticulatedBody& part = scene_.articulated[body];
-    return Algebra::along(way, rounded_share<fine_fraction_bits>(part.fine_share, part.force),
-                          own_turn<fine_fraction_bits>(scene_.bodies[body], part.fine_share, part.torque));
 }
 
 std::int64_t ClosureTree::greatest_bend() const {

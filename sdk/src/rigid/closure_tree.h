@@ -14,6 +14,13 @@ namespace lks {
 // Of a turning push about an axis of the world: what its torque is, with 40 fraction bits.
 fixed::Vec3 fine_axis_in_units(const Body& body, const Joint& joint, const fixed::Direction& axis);
 
+// A push of so much, World. To the nearest: what is always rounded one way turns thin bodies in the end.
+inline Wrench push_times(const Wrench& unit, std::int64_t push) {
+    using namespace tree_detail;
+    return {rounded_share<fine_fraction_bits>(push, unit.force),
+            rounded_share<fine_fraction_bits>(push, unit.torque)};
+}
+
 class ClosureTree : public ArticulationWalk {
 public:
     ClosureTree(RigidScene& scene, const ArticulatedTree& tree) : ArticulationWalk(scene, tree) {}
@@ -24,6 +31,8 @@ public:
     // Brings what its joints hold together, with speed or without.
     void solve(bool in_substep);
 
+    bool is_apart() const;
+
     // What pushes it: first what each body that is pushed would do by itself,
     void begin();
     void add_own_motion(std::uint32_t body, const Wrench& push);
@@ -31,9 +40,8 @@ public:
     void spread();
     void add_push(std::uint32_t body, const Wrench& push);
 
-    // By all of that: how far a body has gone that way;
-    std::int64_t motion_of(std::uint32_t body, const Wrench& way) const;
-    // how far any of its bodies turns its points aside from where they go to first order, World;
+    // By all of that: how far any of its bodies turns its points aside from where they go to first order,
+    // World;
     std::int64_t greatest_bend() const;
     // the bodies go there; its joints remember their pushes.
     void move();

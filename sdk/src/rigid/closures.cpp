@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rigid/closure_rows.h"
+#include "rigid/closure_matrix.h"
 #include "rigid/figures.h"
 
 namespace lks {
@@ -18,12 +18,6 @@ constexpr int give_shift = 8;
 constexpr int softer_shift = 3;
 constexpr std::int64_t greatest_bend = 8;
 
-// A push of so much, World. To the nearest: what is always rounded one way turns thin bodies in the end.
-Wrench push_times(const Wrench& unit, std::int64_t push) {
-    return {rounded_share<fine_fraction_bits>(push, unit.force),
-            rounded_share<fine_fraction_bits>(push, unit.torque)};
-}
-
 class FigureClosures {
 public:
     FigureClosures(RigidScene& scene, const FigureRange& figure, bool in_substep)
@@ -33,9 +27,7 @@ public:
     void factor() {
         for_each_tree([this](ClosureTree tree) { tree.factor(in_substep_); });
         rows_.place();
-        rows_.for_each_row([this](const Closure& closure, const ClosureRow& row, std::uint32_t number) {
-            find_column(closure, row, number);
-        });
+        find_closure_matrix(scene_, figure_, rows_, matrix());
     }
 
     void solve() {
@@ -46,6 +38,10 @@ public:
         }
         for (int softer = give_shift;; softer -= softer_shift) {
             solve_rows(matrix(), unknowns_, rows_.count(), softer);
+            if (std::all_of(unknowns_, unknowns_ + rows_.count(),
+                            [](const ClosureUnknown& row) { return row.more == 0; })) {
+                return;
+            }
             push();
             if (softer < softer_shift || !bends_too_far()) {
                 break;
@@ -56,6 +52,11 @@ public:
 
     // By more than a tenth of what rows that don't push are let be.
     bool is_apart() {
+        bool apart = false;
+        for_each_tree([&apart](const ClosureTree& tree) { apart = apart || tree.is_apart(); });
+        if (apart) {
+            return true;
+        }
         static_cast<void>(rows_.measure(unknowns_));
         return std::any_of(unknowns_, unknowns_ + rows_.count(), [](const ClosureUnknown& row) {
             const std::int64_t left =
@@ -64,9 +65,10 @@ public:
         });
     }
 
-    // What is undone strains none. True: there is one.
+    // What is undone strains none. True: the trees' factors have them.
     bool hold_springs() {
-        bool any = rows_.hold_springs();
+        rows_.hold_springs();
+        bool any = false;
         for_each_part(scene_, figure_, Part::tree,
                       [&](std::uint32_t i) { any = any || scene_.trees[i].has_springs; });
         return any;
@@ -89,46 +91,6 @@ private:
         return ClosureTree(scene_, scene_.trees[side.tree]);
     }
     std::int64_t* matrix() { return scene_.closure_matrix.begin() + range_.first_entry; }
-
-    // How all rows from this one on move by a push in it.
-    void find_column(const Closure& closure, const ClosureRow& row, std::uint32_t column) {
-        const std::int64_t push = scaled_by(world_one, row.scale);
-        for_each_side_tree(closure, [](ClosureTree tree) { tree.begin(); });
-        rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
-            tree_of(side).add_own_motion(
-                side.body, push_times(ClosureRows::push_of(row, is_a), rows_.in_tree(side, push)));
-        });
-        for_each_side_tree(closure, [](ClosureTree tree) { tree.spread(); });
-        rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
-            tree_of(side).add_push(side.body,
-                                   push_times(ClosureRows::push_of(row, is_a), rows_.in_tree(side, push)));
-        });
-        rows_.for_each_row([&](const Closure& other, const ClosureRow& moved, std::uint32_t number) {
-            if (number >= column) {
-                matrix()[entry_of(number, column)] = scaled_by(motion_of(other, moved, closure), moved.scale);
-            }
-        });
-        std::int64_t& entry = matrix()[entry_of(column, column)];
-        entry = plus(entry, scaled_by(rows_.spring_give(closure, row), 2 * row.scale));
-    }
-    // By what the trees of the pushed one have been done.
-    std::int64_t motion_of(const Closure& closure, const ClosureRow& row, const Closure& pushed) const {
-        std::int64_t motion = 0;
-        rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
-            if (side.tree == pushed.a.tree || side.tree == pushed.b.tree) {
-                motion = plus(motion, tree_of(side).motion_of(side.body, ClosureRows::push_of(row, is_a)));
-            }
-        });
-        return motion;
-    }
-    template <typename Use>
-    void for_each_side_tree(const Closure& closure, const Use& use) {
-        rows_.for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
-            if (is_a || closure.a.tree != closure.b.tree) {
-                use(tree_of(side));
-            }
-        });
-    }
 
     // use(side, push)
     template <typename Use>
@@ -211,7 +173,7 @@ void undo_closures(RigidScene& scene, const FigureRange& figure) {
     if (figure.closures == no_closures) {
         return;
     }
-    constexpr int rounds = 2;
+    constexpr int rounds = 3;
     FigureClosures closures(scene, figure, false);
     if (closures.hold_springs()) {
         closures.factor();

@@ -4,7 +4,7 @@
 // Rows that are swept beside the trees know the masses of their two bodies, and what they bring together the
 // trees part again: with two hands on a pole, or a wheel on two arms, joints came centimetres apart. So how
 // the points of each such joint part by a push in each of them, with all that the trees make of it, is found
-// once a substep, a pass of the tree for each row (Schur complement; loop closure in Featherstone 2008, 8.5):
+// once a substep (rigid/closure_matrix.h; Schur complement; loop closure in Featherstone 2008, 8.5):
 //
 //     S = C (M⁻¹ − M⁻¹Jᵀ (J M⁻¹ Jᵀ)⁻¹ J M⁻¹) Cᵀ
 //

@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "fixed/product_sum.h"
 #include "rigid/articulation_algebra.h"
 #include "rigid/uneven_tree_parts.h"
 
@@ -13,7 +14,9 @@ inline constexpr int fine_fraction_bits = 40;
 
 // One factor of 40 fraction bits, the other and the result in any format; wraps.
 inline std::int64_t multiply_40(std::int64_t a, std::int64_t b) {
-    return static_cast<std::int64_t>((fixed::multiply_signed(a, b) >> fine_fraction_bits).lo);
+    fixed::ProductSum product;
+    product.add(a, b);
+    return product.shifted(fine_fraction_bits);
 }
 
 inline fixed::Vec3 multiply_40(std::int64_t a, const fixed::Vec3& v) {

@@ -214,7 +214,7 @@ private:
                 d[row][row] = plus(d[row][row], give);
             }
         }
-        lks::factor(d, held.system);
+        Algebra::factor_rows(d, held);
     }
 
     // How a torque about an axis turns the body by itself, about that axis.

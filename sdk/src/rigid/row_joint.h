@@ -12,11 +12,11 @@ inline constexpr int point_rows = 3;
 
 template <typename Rows>
 struct RowJoint {
-    // What a push does to the parent, row by row.
+    // What pushes do to the parent: C, row by row; behind factor_rows() L⁻¹·C.
     fixed::Vec3 column_shift[most_rows];
     fixed::Vec3 column_turn[most_rows];
-    RowSystem<Rows> system;
-    std::int64_t push[most_rows]; // on the child, World, in the tree's unit
+    RowSystem<Rows> system;       // L·D·Lᵀ
+    std::int64_t push[most_rows]; // on the child, World, in the tree's unit; of fold_rows() Lᵀ times that
 };
 
 // What a push does: a force, and a torque.
@@ -32,8 +32,9 @@ public:
     static constexpr std::int64_t one = std::int64_t{1} << Rows::fraction_bits;
 
     static std::int64_t dot(const Vec3& a, const Vec3& b) {
-        using tree_detail::plus;
-        return plus(plus(Rows::multiply(a.x, b.x), Rows::multiply(a.y, b.y)), Rows::multiply(a.z, b.z));
+        fixed::ProductSum sum;
+        add(a, b, sum);
+        return sum.shifted(Rows::fraction_bits);
     }
     static Vec3 multiply(std::int64_t a, const Vec3& v) {
         return {Rows::multiply(a, v.x), Rows::multiply(a, v.y), Rows::multiply(a, v.z)};
@@ -50,11 +51,22 @@ public:
     }
 
     static void respond(const ArticulatedInverse& w, const Wrench& push, Vec3& shift, Vec3& turn) {
-        shift = symmetric(w.shift, push.force) + mixed(w.mixed, push.torque);
-        turn = mixed_back(w.mixed, push.force) + symmetric(w.turn, push.torque);
+        const std::int64_t(&s)[6] = w.shift;
+        const std::int64_t(&t)[6] = w.turn;
+        const std::int64_t(&m)[9] = w.mixed;
+        const auto row = [&push](const Vec3& by_force, const Vec3& by_torque) {
+            return along(push, by_force, by_torque);
+        };
+        shift = {row({s[0], s[1], s[2]}, {m[0], m[1], m[2]}), row({s[1], s[3], s[4]}, {m[3], m[4], m[5]}),
+                 row({s[2], s[4], s[5]}, {m[6], m[7], m[8]})};
+        turn = {row({m[0], m[3], m[6]}, {t[0], t[1], t[2]}), row({m[1], m[4], m[7]}, {t[1], t[3], t[4]}),
+                row({m[2], m[5], m[8]}, {t[2], t[4], t[5]})};
     }
     static std::int64_t along(const Wrench& push, const Vec3& shift, const Vec3& turn) {
-        return tree_detail::plus(dot(push.force, shift), dot(push.torque, turn));
+        fixed::ProductSum sum;
+        add(push.force, shift, sum);
+        add(push.torque, turn, sum);
+        return sum.shifted(Rows::fraction_bits);
     }
 
     // W −= (a a^T) / pivot for the column a of L⁻¹Uᵀ.
@@ -91,26 +103,30 @@ public:
         }
     }
 
-    static void fold_in(ArticulatedInverse& inverse, const RowJoint<Rows>& joint) {
-        Vec3 shift[most_rows];
-        Vec3 turn[most_rows];
+    static void factor_rows(const std::int64_t (&d)[most_rows][most_rows], RowJoint<Rows>& joint) {
+        factor(d, joint.system);
         for (int i = 0; i < joint.system.count; ++i) {
-            shift[i] = joint.column_shift[i];
-            turn[i] = joint.column_turn[i];
             for (int k = 0; k < i; ++k) {
-                shift[i] = shift[i] - multiply(joint.system.lower[i][k], shift[k]);
-                turn[i] = turn[i] - multiply(joint.system.lower[i][k], turn[k]);
+                const std::int64_t l = joint.system.lower[i][k];
+                joint.column_shift[i] = joint.column_shift[i] - multiply(l, joint.column_shift[k]);
+                joint.column_turn[i] = joint.column_turn[i] - multiply(l, joint.column_turn[k]);
             }
-            take_out(inverse, shift[i], turn[i], joint.system.pivots[i]);
+        }
+    }
+
+    static void fold_in(ArticulatedInverse& inverse, const RowJoint<Rows>& joint) {
+        for (int i = 0; i < joint.system.count; ++i) {
+            take_out(inverse, joint.column_shift[i], joint.column_turn[i], joint.system.pivots[i]);
         }
     }
 
     // With what is left of its rows: its push if nothing pushed the parent, which that moves.
     static void fold_rows(std::int64_t (&left)[most_rows], std::int64_t most, RowJoint<Rows>& joint,
                           ArticulatedBody& parent) {
-        lks::solve(joint.system, left);
+        solve_lower(joint.system, left);
         for (int row = 0; row < joint.system.count; ++row) {
-            joint.push[row] = std::clamp(tree_detail::minus(0, left[row]), -most, most);
+            const std::int64_t push = Rows::divide(left[row], joint.system.pivots[row]);
+            joint.push[row] = std::clamp(tree_detail::minus(0, push), -most, most);
             parent.shift = parent.shift - multiply(joint.push[row], joint.column_shift[row]);
             parent.turn = parent.turn - multiply(joint.push[row], joint.column_turn[row]);
         }
@@ -119,26 +135,22 @@ public:
     // With what the joints towards the root push the parent.
     static void push_more(std::int64_t most, RowJoint<Rows>& joint, const ArticulatedBody& parent) {
         using tree_detail::plus;
-        std::int64_t more[most_rows];
         for (int row = 0; row < joint.system.count; ++row) {
-            more[row] =
-                plus(dot(joint.column_shift[row], parent.force), dot(joint.column_turn[row], parent.torque));
+            const std::int64_t more =
+                along({joint.column_shift[row], joint.column_turn[row]}, parent.force, parent.torque);
+            joint.push[row] = plus(joint.push[row], Rows::divide(more, joint.system.pivots[row]));
         }
-        lks::solve(joint.system, more);
+        solve_upper(joint.system, joint.push);
         for (int row = 0; row < joint.system.count; ++row) {
-            joint.push[row] = std::clamp(plus(joint.push[row], more[row]), -most, most);
+            joint.push[row] = std::clamp(joint.push[row], -most, most);
         }
     }
 
 private:
-    static Vec3 symmetric(const std::int64_t (&m)[6], const Vec3& v) {
-        return {dot({m[0], m[1], m[2]}, v), dot({m[1], m[3], m[4]}, v), dot({m[2], m[4], m[5]}, v)};
-    }
-    static Vec3 mixed(const std::int64_t (&m)[9], const Vec3& v) {
-        return {dot({m[0], m[1], m[2]}, v), dot({m[3], m[4], m[5]}, v), dot({m[6], m[7], m[8]}, v)};
-    }
-    static Vec3 mixed_back(const std::int64_t (&m)[9], const Vec3& v) {
-        return {dot({m[0], m[3], m[6]}, v), dot({m[1], m[4], m[7]}, v), dot({m[2], m[5], m[8]}, v)};
+    static void add(const Vec3& a, const Vec3& b, fixed::ProductSum& sum) {
+        sum.add(a.x, b.x);
+        sum.add(a.y, b.y);
+        sum.add(a.z, b.z);
     }
 };
 

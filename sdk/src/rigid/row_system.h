@@ -41,11 +41,11 @@ void factor(const std::int64_t (&matrix)[most_rows][most_rows], RowSystem<Rows>&
         // L times D
         std::int64_t scaled[most_rows];
         for (int j = 0; j <= i; ++j) {
-            std::int64_t rest = matrix[i][j];
+            fixed::ProductSum others;
             for (int k = 0; k < j; ++k) {
-                rest =
-                    minus(rest, Rows::multiply(scaled[k], j == i ? system.lower[i][k] : system.lower[j][k]));
+                others.add(scaled[k], system.lower[j][k]);
             }
+            const std::int64_t rest = minus(matrix[i][j], others.shifted(Rows::fraction_bits));
             if (j == i) {
                 system.pivots[i] = Rows::invert(rest);
             } else {
@@ -56,18 +56,27 @@ void factor(const std::int64_t (&matrix)[most_rows][most_rows], RowSystem<Rows>&
     }
 }
 
+// L·x = rows
 template <typename Rows>
-void solve(const RowSystem<Rows>& system, std::int64_t (&rows)[most_rows]) {
+void solve_lower(const RowSystem<Rows>& system, std::int64_t (&rows)[most_rows]) {
     for (int i = 0; i < system.count; ++i) {
+        fixed::ProductSum others;
         for (int k = 0; k < i; ++k) {
-            rows[i] = tree_detail::minus(rows[i], Rows::multiply(system.lower[i][k], rows[k]));
+            others.add(system.lower[i][k], rows[k]);
         }
+        rows[i] = tree_detail::minus(rows[i], others.shifted(Rows::fraction_bits));
     }
+}
+
+// Lᵀ·x = rows
+template <typename Rows>
+void solve_upper(const RowSystem<Rows>& system, std::int64_t (&rows)[most_rows]) {
     for (int i = system.count; i-- > 0;) {
-        rows[i] = Rows::divide(rows[i], system.pivots[i]);
+        fixed::ProductSum others;
         for (int k = i + 1; k < system.count; ++k) {
-            rows[i] = tree_detail::minus(rows[i], Rows::multiply(system.lower[k][i], rows[k]));
+            others.add(system.lower[k][i], rows[k]);
         }
+        rows[i] = tree_detail::minus(rows[i], others.shifted(Rows::fraction_bits));
     }
 }
 
