@@ -26,7 +26,7 @@ private:
     void configure(lks_world_def& def) override { def.substeps = 8; }
 
     bool build() override {
-        camera_ = {{3.9f, 1.9f, 5.4f}, {-0.1f, 0.35f, 0.1f}, 42.0f, {0.4f, 0.85f, 0.5f}};
+        camera_ = {{4.3f, 1.9f, 6.2f}, {0.3f, 0.35f, 0.0f}, 45.0f, {0.4f, 0.85f, 0.5f}};
         return add_ground(rgb(0x9aa08f)) && add_bump(-2000, 700) && add_bump(-900, -700) &&
                add_bump(200, 0) && add_chassis() && add_wheels() && add_driver() && add_crates() &&
                add_arms(-1) && add_arms(1);
