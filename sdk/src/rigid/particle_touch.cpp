@@ -14,7 +14,7 @@ namespace {
 using fixed::Vec3;
 
 // Between the surfaces: half a centimetre.
-constexpr std::int64_t touching_distance = world_one / 200;
+constexpr std::int64_t touching_reach = world_one / 200;
 
 std::int64_t distance_between(const Vec3& point, const Body& body, const BodyShape& shape) {
     const PlacedShape placed = place_shape(body, shape);
@@ -36,7 +36,7 @@ bool is_near(const Vec3& point, std::int64_t distance, const Body& body, const B
 }
 
 bool touches(const Object& object, const Body& body, const BodyDescription& description) {
-    const std::int64_t distance = world_from_coordinate(object.asset().particle_radius) + touching_distance;
+    const std::int64_t distance = world_from_coordinate(object.asset().particle_radius) + touching_reach;
     for (std::uint32_t i = 0; i < object.count(); ++i) {
         if (is_near(particle_position(object, i), distance, body, description)) {
             return true;
