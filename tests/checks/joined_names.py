@@ -61,7 +61,7 @@ def main():
     root = pathlib.Path(sys.argv[1])
     found = list(hidden_names(root))
     for source, name, header in found:
-        print(f"{source}: '{name}' would hide {header.relative_to(root)}'s in sources that are joined with it.")
+        print(f"{source}: '{name}' hides that of {header.relative_to(root)} in sources that are joined.")
     print(f"{len(list(root.rglob('*.cpp')))} sources, {len(found)} hidden names")
     return 1 if found else 0
 
