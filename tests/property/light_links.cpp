@@ -112,7 +112,7 @@ TEST_CASE("heavy bodies with a light link between them that stands on the ground
                 }
                 INFO(std::string(name_of(hold)) << ", 1 : " << ratio << ", " << substeps << " substeps");
                 CHECK(apart < 1e-5);
-                if (hold == Hold::fixed && ratio > 20) {
+                if (hold == Hold::fixed && ratio > 20 && substeps < 20) {
                     // All that they weigh stands on the link's end, of which one contact knows the link
                     // alone: of 17 ratios from 10 to 400 seven keep shaking at 4 substeps, one at 8 and none
                     // at 20.

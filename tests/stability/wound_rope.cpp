@@ -231,7 +231,7 @@ TEST_CASE(
                                  {5, 0, 240, 1, 5000, 20, 4000, 1, 15},
                                  {5, 0, 60, 5, 20000, 20, 4000, 1, 15},
                                  {5, 0, 60, 10, 200000, 20, 5000, 1, 15}};
-    // Under sanitizers all of it takes minutes: one row of one.
+    // Under sanitizers all of it takes minutes: one row.
     for (const MovingPole& row : lifted) {
         carry_off("lifted by 3 m and back", row, 7, lift);
         if (sanitised) {

@@ -76,11 +76,8 @@ private:
         std::int64_t motion = 0;
         ClosureRows::for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
             const ArticulatedBody& part = scene_.articulated[side.body];
-            constexpr int bits = tree_detail::fine_fraction_bits;
-            motion += RowAlgebra<FineRows>::along(
-                ClosureRows::push_of(row, is_a),
-                tree_detail::rounded_share<bits>(part.fine_share, part.force),
-                tree_detail::own_turn<bits>(scene_.bodies[side.body], part.fine_share, part.torque));
+            const OwnMotion moved = tree_of(side).own_motion(side.body, {part.force, part.torque});
+            motion += RowAlgebra<FineRows>::along(ClosureRows::push_of(row, is_a), moved.shift, moved.turn);
         });
         return motion;
     }

@@ -322,7 +322,7 @@ constexpr std::int64_t multiply_shift_halves(std::int64_t a, std::int64_t b, int
     return saturate_to_int64(shift_right_rounded(multiply_signed(a, b), n));
 }
 
-// The same: with the machine's 128 bits it takes two thirds of the instructions.
+// The same: with the machine's 128 bits it takes half the instructions.
 constexpr std::int64_t multiply_shift(std::int64_t a, std::int64_t b, int n) {
 #if defined(__SIZEOF_INT128__) && !defined(__wasm__)
     __extension__ using Native = __int128;

@@ -16,7 +16,7 @@ using Algebra = RowAlgebra<FineRows>;
 // root.
 struct Follower {
     std::uint32_t row;
-    std::uint32_t body; // or none: it has met its row's other side, or is through
+    std::uint32_t body; // or none: it has met its row's other side
     Wrench push;
     Vec3 shift;
     Vec3 turn;
@@ -43,9 +43,8 @@ public:
     // A side of a row, with its unit push; rows come in their order.
     void add(const ClosureSide& side, const ClosureRow& row, std::uint32_t number, const Wrench& unit) {
         const Wrench push = push_times(unit, scaled_by(world_one, row.scale - half_exponent_));
-        const std::int64_t share = scene_.articulated[side.body].fine_share;
-        followers_[count_++] = {number, side.body, push, rounded_share<fine_fraction_bits>(share, push.force),
-                                own_turn<fine_fraction_bits>(scene_.bodies[side.body], share, push.torque)};
+        const OwnMotion own = ClosureTree(scene_, range_).own_motion(side.body, push);
+        followers_[count_++] = {number, side.body, push, own.shift, own.turn};
     }
 
     void find() {

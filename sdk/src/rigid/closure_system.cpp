@@ -43,9 +43,6 @@ private:
     static std::int64_t toward(const ClosureUnknown& row, std::int64_t value) {
         return row.side < 0 ? -value : value;
     }
-    std::int64_t entry(std::uint32_t i, std::uint32_t j) const {
-        return matrix_[i >= j ? entry_of(i, j) : entry_of(j, i)];
-    }
 
     // Of the rows that push.
     void factor() {
@@ -65,7 +62,7 @@ private:
                     others.add(scaled[k], lower_j[k]);
                 }
                 const std::int64_t rest =
-                    minus(entry(which_[i], which_[j]), others.shifted(fine_fraction_bits));
+                    minus(matrix_[entry_of(which_[i], which_[j])], others.shifted(fine_fraction_bits));
                 if (j == i) {
                     const ClosureUnknown& row = rows_[which_[i]];
                     pivots_[i] = invert_fine(plus(rest, plus(row.give, row.own >> give_shift_)));

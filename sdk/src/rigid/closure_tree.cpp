@@ -119,9 +119,10 @@ void ClosureTree::begin() {
 }
 
 void ClosureTree::add_own_motion(std::uint32_t body, const Wrench& push) {
+    const OwnMotion own = own_motion(body, push);
     ArticulatedBody& part = scene_.articulated[body];
-    part.shift = part.shift + rounded_share<fine_fraction_bits>(part.fine_share, push.force);
-    part.turn = part.turn + own_turn<fine_fraction_bits>(scene_.bodies[body], part.fine_share, push.torque);
+    part.shift = part.shift + own.shift;
+    part.turn = part.turn + own.turn;
 }
 
 void ClosureTree::solve(bool in_substep) {
@@ -232,10 +233,15 @@ std::int64_t ClosureTree::greatest_bend() const {
     return most;
 }
 
-std::int64_t ClosureTree::own_give(std::uint32_t body, const Wrench& push) const {
+OwnMotion ClosureTree::own_motion(std::uint32_t body, const Wrench& push) const {
     const std::int64_t share = scene_.articulated[body].fine_share;
-    return Algebra::along(push, rounded_share<fine_fraction_bits>(share, push.force),
-                          own_turn<fine_fraction_bits>(scene_.bodies[body], share, push.torque));
+    return {rounded_share<fine_fraction_bits>(share, push.force),
+            own_turn<fine_fraction_bits>(scene_.bodies[body], share, push.torque)};
+}
+
+std::int64_t ClosureTree::own_give(std::uint32_t body, const Wrench& push) const {
+    const OwnMotion own = own_motion(body, push);
+    return Algebra::along(push, own.shift, own.turn);
 }
 
 void ClosureTree::move() {

@@ -21,6 +21,11 @@ inline Wrench push_times(const Wrench& unit, std::int64_t push) {
             rounded_share<fine_fraction_bits>(push, unit.torque)};
 }
 
+struct OwnMotion {
+    fixed::Vec3 shift;
+    fixed::Vec3 turn;
+};
+
 class ClosureTree : public ArticulationWalk {
 public:
     ClosureTree(RigidScene& scene, const ArticulatedTree& tree) : ArticulationWalk(scene, tree) {}
@@ -47,7 +52,8 @@ public:
     void move();
     void keep_pushes();
 
-    // How far it would go by itself.
+    // What a push does to a body by itself, and how far it goes along the push.
+    OwnMotion own_motion(std::uint32_t body, const Wrench& push) const;
     std::int64_t own_give(std::uint32_t body, const Wrench& push) const;
 
 private:
