@@ -1,6 +1,9 @@
 // 128-bit integers against integers of other widths.
 #include <doctest/doctest.h>
 
+#include <cstdint>
+#include <initializer_list>
+
 #include "big_integer.h"
 #include "fixed/int128.h"
 #include "fixed/product_sum.h"
