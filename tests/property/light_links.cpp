@@ -96,7 +96,7 @@ TEST_CASE("a light link between heavy bodies holds them together and gains no en
 }
 
 // Before, three of these were 2 to 8 mm apart and six did not rest: fixed joints of 1 : 200 had up to 1.5 kJ.
-TEST_CASE("heavy bodies with a light link between them that stands on the ground come to rest, or nearly") {
+TEST_CASE("heavy bodies with a light link between them that stands on the ground come to rest") {
     for (const Hold hold : {Hold::hinges, Hold::fixed, Hold::limits}) {
         for (const double ratio : {10., 50., 200.}) {
             for (const std::uint32_t substeps : {4u, 8u, 20u}) {
@@ -112,14 +112,7 @@ TEST_CASE("heavy bodies with a light link between them that stands on the ground
                 }
                 INFO(std::string(name_of(hold)) << ", 1 : " << ratio << ", " << substeps << " substeps");
                 CHECK(apart < 1e-5);
-                if (hold == Hold::fixed && ratio > 20 && substeps < 20) {
-                    // All that they weigh stands on the link's end, of which one contact knows the link
-                    // alone: of 17 ratios from 10 to 400 seven keep shaking at 4 substeps, one at 8 and none
-                    // at 20.
-                    CHECK(energy_of(barbell.world) < 0.02 * 2 * ratio * 9.81 * 0.85);
-                } else {
-                    CHECK(lks_world_awake_body_count(barbell.world) == 0);
-                }
+                CHECK(lks_world_awake_body_count(barbell.world) == 0);
             }
         }
     }

@@ -104,7 +104,7 @@ public:
         for_each_body([](Body&, ArticulatedBody& part) {
             part.load = 0;
             part.lowered = 0;
-            part.carried_torque = {0, 0, 0};
+            part.carried_force = part.carried_torque = {0, 0, 0};
         });
         stiffen_by_tensions();
     }
@@ -276,8 +276,9 @@ private:
         for (std::uint32_t i = range_.first_closure; i < range_.closure_end; ++i) {
             const Closure& closure = scene_.closures[i];
             for (const ClosureSide* side : {&closure.a, &closure.b}) {
-                if (closure.closes && side->tree != no_tree && &scene_.trees[side->tree] == &range_) {
-                    add_load(side->body, scene_.joints[closure.joint], side == &closure.a);
+                if (closure.kind == Closure::Kind::closing && side->tree != no_tree &&
+                    &scene_.trees[side->tree] == &range_) {
+                    add_load(side->body, scene_.joints[closure.index], side == &closure.a);
                 }
             }
         }

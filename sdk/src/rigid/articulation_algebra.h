@@ -71,13 +71,18 @@ inline Inverse invert_pivot(std::int64_t pivot) {
     return inverse;
 }
 
-inline fixed::Vec3 lever_in_units(const Body& body, const fixed::Vec3& point) {
-    const fixed::Vec3 lever = fixed::rotate(body.rotation, point);
+// Of a lever in world axes.
+inline fixed::Vec3 arm_in_units(const Body& body, const fixed::Vec3& lever) {
     const int down = world_fraction_bits - tree_fraction_bits + body.scale;
     const auto part = [down](std::int64_t c) {
         return down >= 0 ? c >> down : c * (std::int64_t{1} << -down);
     };
     return {part(lever.x), part(lever.y), part(lever.z)};
+}
+
+// Of a point in the body's.
+inline fixed::Vec3 lever_in_units(const Body& body, const fixed::Vec3& point) {
+    return arm_in_units(body, fixed::rotate(body.rotation, point));
 }
 
 inline const fixed::Vec3& point_of(const Joint& joint, bool on_a) {

@@ -32,6 +32,7 @@ struct ArticulatedBody {
     std::int64_t fine_share; // the same with 40 fraction bits: of uneven trees, and of those with loops
     bool attached;
     bool has_points;         // joints that hold points of it, while closures are found
+    bool touches;            // what does not move, while light feet are found
     bool tree_has_anchor;    // of the root: a joint of its solve holds it on what does not move
     std::uint32_t incoming;  // the joint of tree_joints by which it hangs on its parent; of the root none
     HeavySides heavy;        // while trees are found
@@ -47,7 +48,9 @@ struct ArticulatedBody {
     fixed::Vec3 turn;
     fixed::Vec3 force;
     fixed::Vec3 torque;
-    // Of a held tree: a torque that the next solve begins with, in the tree's unit and the body's.
+    // What the next solve begins with, in the tree's unit and the body's: torques of held trees, and what
+    // light feet bear.
+    fixed::Vec3 carried_force;
     fixed::Vec3 carried_torque;
 };
 
@@ -88,6 +91,7 @@ struct ArticulatedTree {
     bool is_loaded;   // it hangs on ropes that bear it
     bool has_springs; // in the points of a joint
     bool is_uneven;   // one of its bodies has a hundred times the mass of another, and more
+    bool stands;      // on light feet (rigid/light_feet.h)
     // How often its longest lever is twice as long as those of most trees at most: what pushes there turns by
     // as much more.
     int lever_doublings;

@@ -70,7 +70,7 @@ public:
         scene_.trees.clear();
         for (Joint& joint : scene_.joints) {
             joint.in_tree = joint.in_held_tree = joint.closes_loop = false;
-            joint.turns_in_tree = joint.limits_in_tree = false;
+            joint.turns_in_tree = joint.limits_in_tree = joint.motor_in_tree = joint.carries_torque = false;
         }
         // What closes a loop is rather a soft one.
         for (const bool soft : {false, true}) {

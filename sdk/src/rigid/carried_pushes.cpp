@@ -240,14 +240,16 @@ void measure_motions(RigidScene& scene, const FigureRange& range) {
 
 std::int32_t share_to_add(RigidScene& scene, const FigureRange& range, const MotionRate& rate,
                           std::int64_t least_speed) {
-    return is_pushed(range) ? Figure(scene, range).share_to_add(rate, least_motion_of(rate, least_speed)) : 0;
+    return is_pushed(range) && !stands_on_light_feet(scene, range)
+               ? Figure(scene, range).share_to_add(rate, least_motion_of(rate, least_speed))
+               : 0;
 }
 
 bool scale_carried_pushes(RigidScene& scene, const MotionRate& rate, std::int64_t least_speed) {
     bool any = false;
     for (std::size_t i = 0; i < scene.figure_ranges.size(); ++i) {
         const FigureRange& range = scene.figure_ranges[i];
-        if (!is_pushed(range)) {
+        if (!is_pushed(range) || stands_on_light_feet(scene, range)) {
             continue;
         }
         if (any && Figure(scene, range).knows_changed()) {

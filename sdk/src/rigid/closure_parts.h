@@ -4,15 +4,18 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "collide/manifold.h"
 #include "rigid/body.h"
 #include "rigid/held_row.h"
 #include "rigid/row_joint.h"
 
 namespace lks {
 
-// Of a figure: what closes loops in more is swept, and so are limits that there is no room for.
+// Of a figure: what closes loops in more is swept, and so are limits and contacts that there is no room for.
 inline constexpr std::uint32_t most_closure_rows = 48;
 inline constexpr std::uint32_t closure_rows_a_joint = 3;
+// Where it stands on light feet: limits, and contacts' points.
+inline constexpr std::uint32_t standing_rows_a_joint = 8;
 
 struct ClosureSide {
     std::uint32_t body;
@@ -20,10 +23,12 @@ struct ClosureSide {
     fixed::Vec3 lever;  // as its factors have it: as ArticulatedJoint's
 };
 
-// A joint that closes a loop, or one of a tree that has limits.
+// A joint that closes a loop, one of a tree that has limits, or a contact of a foot.
 struct Closure {
-    std::uint32_t joint;
-    bool closes; // or its points are the tree's
+    enum class Kind : std::uint8_t { closing, limits, foot };
+
+    Kind kind;
+    std::uint32_t index; // of the scene's joints, or contacts
     std::uint32_t first_row;
     std::uint32_t row_count;
     ClosureSide a;
@@ -34,10 +39,11 @@ struct Closure {
 
 // What it holds in one direction, as the factors have it.
 struct ClosureRow {
-    enum class Kind : std::uint8_t { distance, point, turn, limit };
+    enum class Kind : std::uint8_t { distance, point, turn, limit, contact };
 
     Kind kind;
     HeldRow::Kind limit;    // of which kind
+    std::uint8_t point;     // of the contact
     fixed::Direction along; // b's point from a's, or about it b against a; in the world
     std::int32_t scale;     // the power of two by which it is scaled, so that `own` is about one
     std::int64_t own;       // what its bodies by themselves give way by, 40 fraction bits
@@ -55,8 +61,14 @@ struct ClosureRange {
     std::uint32_t row_room;
     std::uint32_t row_count; // of its last factors
     std::uint32_t first_entry;
+    bool stands; // on light feet
 };
 inline constexpr std::uint32_t no_closures = UINT32_MAX;
+
+// Of all figures of a scene with so many joints: with as many contacts as there are rows for.
+constexpr std::size_t closure_room(std::size_t joints) {
+    return (1 + standing_rows_a_joint / greatest_point_count) * joints;
+}
 
 // Row by row up to the diagonal.
 constexpr std::uint32_t entry_of(std::uint32_t row, std::uint32_t column) {
@@ -65,7 +77,7 @@ constexpr std::uint32_t entry_of(std::uint32_t row, std::uint32_t column) {
 inline constexpr std::uint32_t most_closure_entries = entry_of(most_closure_rows, 0);
 // Of all figures of a scene with so many joints.
 constexpr std::size_t greatest_closure_entries(std::size_t joints) {
-    return closure_rows_a_joint * joints * (most_closure_rows + 1) / 2;
+    return standing_rows_a_joint * joints * (most_closure_rows + 1) / 2;
 }
 
 } // namespace lks

@@ -6,6 +6,8 @@
 
 #include "rigid/articulation.h"
 #include "rigid/articulation_joint.h"
+#include "rigid/contact_search.h"
+#include "rigid/joint_drive.h"
 #include "rigid/joint_limits.h"
 #include "rigid/joint_turns.h"
 
@@ -32,7 +34,7 @@ bool is_near(const HeldRow (&limits)[most_held_rows], std::uint32_t count, std::
 }
 
 bool is_along(const ClosureRow& row) {
-    return row.kind == ClosureRow::Kind::point || row.kind == ClosureRow::Kind::distance;
+    return row.kind != ClosureRow::Kind::turn && row.kind != ClosureRow::Kind::limit;
 }
 
 Vec3 to_world(const Direction& way) {
@@ -63,14 +65,26 @@ void ClosureRows::place() {
     for_each([&](Closure& closure) {
         closure.first_row = range_.row_count;
         closure.row_count = 0;
-        place(closure);
         closing -= rows_to_close(closure);
-        place_limits(closure, margin, range_.row_room - closing);
+        if (closure.kind == Closure::Kind::foot) {
+            place_foot(closure);
+        } else {
+            place_joint(closure);
+            place_limits(closure, margin, range_.row_room - closing);
+        }
     });
 }
 
+// Of a foot: of its points that are near.
 std::uint32_t ClosureRows::rows_to_close(const Closure& closure) const {
-    return closure.closes ? closing_rows(scene_.joints[closure.joint]) : 0;
+    if (closure.kind != Closure::Kind::foot) {
+        return closure.kind == Closure::Kind::closing ? closing_rows(joint_of(closure)) : 0;
+    }
+    std::uint32_t rows = 0;
+    for (std::uint32_t i = 0; i < feet_points(closure); ++i) {
+        rows += is_near_point(closure, i) ? 1u : 0u;
+    }
+    return rows;
 }
 
 // How near limits are of which there is room for all.
@@ -78,6 +92,9 @@ std::int64_t ClosureRows::find_margin(std::uint32_t room) {
     constexpr std::int64_t margins[] = {far_from_limit, far_from_limit / 4, far_from_limit / 16};
     std::uint32_t counts[std::size(margins)] = {};
     for_each([&](const Closure& closure) {
+        if (closure.kind == Closure::Kind::foot) {
+            return;
+        }
         HeldRow limits[most_held_rows];
         const std::uint32_t count = limits_of(closure, limits);
         for (std::size_t i = 0; i < std::size(margins); ++i) {
@@ -92,16 +109,54 @@ std::int64_t ClosureRows::find_margin(std::uint32_t room) {
     return 0;
 }
 
-void ClosureRows::place(Closure& closure) {
-    const Joint& joint = scene_.joints[closure.joint];
+ContactBodies ClosureRows::foot_bodies(const Closure& closure) const {
+    const ContactKey& key = contact_of(closure).key;
+    return {scene_.bodies[key.body_a], other_body(scene_, key.other)};
+}
+
+bool ClosureRows::is_near_point(const Closure& closure, std::uint32_t point) const {
+    const Contact& contact = contact_of(closure);
+    return is_near_foot_point(contact, contact.points[point], foot_bodies(closure));
+}
+
+// In the unit of the body that moves.
+Vec3 ClosureRows::foot_lever_of(const Closure& closure, std::uint32_t point) const {
+    const Contact& contact = contact_of(closure);
+    const bool of_a = closure.a.tree != no_tree;
+    return arm_in_units(of_a ? body_a(closure) : body_b(closure),
+                        foot_lever(contact, contact.points[point], foot_bodies(closure), of_a));
+}
+
+ClosureRows::FootPush ClosureRows::pushed_by_foot(const Closure& closure, std::uint32_t point,
+                                                  const Vec3& push) const {
+    const bool of_a = closure.a.tree != no_tree;
+    FootPush pushed{of_a ? closure.a : closure.b, of_a ? -push : push};
+    pushed.side.lever = foot_lever_of(closure, point);
+    return pushed;
+}
+
+void ClosureRows::place_foot(Closure& closure) {
+    const Contact& contact = contact_of(closure);
+    ClosureSide& side = closure.a.tree != no_tree ? closure.a : closure.b;
+    for (std::uint32_t i = 0; i < contact.count; ++i) {
+        if (is_near_point(closure, i)) {
+            side.lever = foot_lever_of(closure, i);
+            add(closure, ClosureRow::Kind::contact, contact.normal()).point = static_cast<std::uint8_t>(i);
+        }
+    }
+}
+
+void ClosureRows::place_joint(Closure& closure) {
+    const Joint& joint = joint_of(closure);
     for (ClosureSide* side : {&closure.a, &closure.b}) {
         if (side->tree != no_tree) {
             side->lever = lever_in_units(scene_.bodies[side->body], point_of(joint, side == &closure.a));
         }
     }
-    if (closure.closes && is_distance(joint)) {
+    const bool closes = closure.kind == Closure::Kind::closing;
+    if (closes && is_distance(joint)) {
         add(closure, ClosureRow::Kind::distance, distance_error_of(closure).way);
-    } else if (closure.closes) {
+    } else if (closes) {
         add(closure, ClosureRow::Kind::point, {direction_one, 0, 0});
         add(closure, ClosureRow::Kind::point, {0, direction_one, 0});
         add(closure, ClosureRow::Kind::point, {0, 0, direction_one});
@@ -113,37 +168,44 @@ void ClosureRows::place(Closure& closure) {
     }
 }
 
+// What a motor turns stays within its limits as it is. Where the motor is not capable of that they are left
+// to the sweeps: limbs that a blow throws about, solved with it, went on at up to ten times their speed.
+bool ClosureRows::is_driven(const Joint& joint) const {
+    return range_.stands && has_motor(joint);
+}
+
 std::uint32_t ClosureRows::limits_of(const Closure& closure, HeldRow (&limits)[most_held_rows]) const {
-    return limit_rows(scene_.joints[closure.joint], body_a(closure), body_b(closure), in_substep_, limits, 0);
+    return limit_rows(joint_of(closure), body_a(closure), body_b(closure), in_substep_, limits, 0);
 }
 
 // All of a joint, where one is so near, or pushes.
 void ClosureRows::place_limits(Closure& closure, std::int64_t margin, std::uint32_t room) {
     HeldRow limits[most_held_rows];
     const std::uint32_t count = limits_of(closure, limits);
-    Joint& joint = scene_.joints[closure.joint];
-    joint.limits_in_tree = is_near(limits, count, margin) && range_.row_count + count <= room;
+    Joint& joint = joint_of(closure);
+    joint.limits_in_tree =
+        is_near(limits, count, margin) && range_.row_count + count <= room && !is_driven(joint);
     for (std::uint32_t i = 0; joint.limits_in_tree && i < count; ++i) {
-        add(closure, ClosureRow::Kind::limit, limits[i].axis, limits[i].kind);
+        add(closure, ClosureRow::Kind::limit, limits[i].axis).limit = limits[i].kind;
     }
 }
 
-void ClosureRows::add(Closure& closure, ClosureRow::Kind kind, const Direction& along, HeldRow::Kind limit) {
-    const Joint& joint = scene_.joints[closure.joint];
+ClosureRow& ClosureRows::add(Closure& closure, ClosureRow::Kind kind, const Direction& along) {
     ClosureRow& row = scene_.closure_rows[range_.first_row + range_.row_count];
+    row = {};
     row.kind = kind;
-    row.limit = limit;
     row.along = along;
     for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
         (is_a ? row.torque_a : row.torque_b) =
             is_along(row) ? cross_32(side.lever, to_world(along))
-                          : fine_axis_in_units(scene_.bodies[side.body], joint, along);
+                          : fine_axis_in_units(scene_.bodies[side.body], joint_of(closure), along);
     });
     const std::int64_t own = std::max<std::int64_t>(own_give(closure, row), 1);
     row.scale = (std::countl_zero(static_cast<std::uint64_t>(own)) - (63 - fine_fraction_bits)) / 2;
     row.own = scaled_by(own, 2 * row.scale);
     ++closure.row_count;
     ++range_.row_count;
+    return row;
 }
 
 Wrench ClosureRows::push_of(const ClosureRow& row, bool is_a) {
@@ -171,15 +233,15 @@ std::int64_t ClosureRows::own_give(const Closure& closure, const ClosureRow& row
 }
 
 std::int64_t ClosureRows::spring_give(const Closure& closure, const ClosureRow& row) const {
-    if (!in_substep_ || !is_along(row)) {
+    if (!in_substep_ || !is_along(row) || row.kind == ClosureRow::Kind::contact) {
         return 0;
     }
-    const std::int64_t give = points_give(scene_.joints[closure.joint], closure.pair_share);
+    const std::int64_t give = points_give(joint_of(closure), closure.pair_share);
     return scaled_by(give, fine_fraction_bits - tree_fraction_bits);
 }
 
 DistanceError ClosureRows::distance_error_of(const Closure& closure) const {
-    const Joint& joint = scene_.joints[closure.joint];
+    const Joint& joint = joint_of(closure);
     if (in_substep_) {
         return left_of_distance(joint, body_a(closure), body_b(closure));
     }
@@ -189,7 +251,7 @@ DistanceError ClosureRows::distance_error_of(const Closure& closure) const {
 }
 
 Vec3 ClosureRows::left_apart_of(const Closure& closure) const {
-    const Joint& joint = scene_.joints[closure.joint];
+    const Joint& joint = joint_of(closure);
     if (in_substep_) {
         return left_of_points(joint, body_a(closure), body_b(closure));
     }
@@ -229,9 +291,12 @@ bool ClosureRows::measure(ClosureUnknown (&unknowns)[most_closure_rows]) {
 
 // What several of its rows need.
 ClosureRows::Measured ClosureRows::measure(const Closure& closure) const {
-    const Joint& joint = scene_.joints[closure.joint];
     Measured measured{};
-    if (closure.closes && !is_distance(joint)) {
+    if (closure.kind == Closure::Kind::foot) {
+        return measured;
+    }
+    const Joint& joint = joint_of(closure);
+    if (closure.kind == Closure::Kind::closing && !is_distance(joint)) {
         measured.apart = left_apart_of(closure);
         measured.turned = turn_error(joint, body_a(closure), body_b(closure), in_substep_);
     }
@@ -243,7 +308,28 @@ ClosureRows::Measured ClosureRows::measure(const Closure& closure) const {
 
 bool ClosureRows::measure(const Closure& closure, const Measured& measured, const ClosureRow& row,
                           std::uint32_t number, ClosureUnknown& unknown) {
-    const int reach = scene_.joints[closure.joint].constants.reach;
+    if (row.kind != ClosureRow::Kind::contact) {
+        return measure_joint(closure, measured, row, number, unknown);
+    }
+    measure_foot(closure, row, unknown);
+    return true;
+}
+
+// What is undone moves feet as their joints have it.
+void ClosureRows::measure_foot(const Closure& closure, const ClosureRow& row, ClosureUnknown& unknown) const {
+    const Contact& contact = contact_of(closure);
+    const ContactPoint& point = contact.points[row.point];
+    unknown.side = 1;
+    unknown.left = world_one;
+    if (in_substep_ && point.active) {
+        unknown.left = foot_gap(contact, point, foot_bodies(closure));
+        unknown.pushed = point.push.normal;
+    }
+}
+
+bool ClosureRows::measure_joint(const Closure& closure, const Measured& measured, const ClosureRow& row,
+                                std::uint32_t number, ClosureUnknown& unknown) {
+    const int reach = joint_of(closure).constants.reach;
     switch (row.kind) {
     case ClosureRow::Kind::distance: {
         const DistanceError error = distance_error_of(closure);
@@ -282,9 +368,14 @@ void ClosureRows::keep_pushes(const ClosureUnknown (&unknowns)[most_closure_rows
 
 void ClosureRows::keep_push(const Closure& closure, const ClosureRow& row, std::uint32_t number,
                             const ClosureUnknown& unknown) {
-    Joint& joint = scene_.joints[closure.joint];
     const std::int64_t more = multiply_32(closure.pair_share, scaled_by(unknown.more, row.scale));
     const bool rests = unknown.side != 0 && unknown.pushed + unknown.more == 0;
+    if (row.kind == ClosureRow::Kind::contact) {
+        std::int64_t& push = contact_of(closure).points[row.point].push.normal;
+        push = rests ? 0 : std::clamp<std::int64_t>(push + more, 0, greatest_push);
+        return;
+    }
+    Joint& joint = joint_of(closure);
     switch (row.kind) {
     case ClosureRow::Kind::distance: {
         const std::int64_t before = fixed::dot(ways_[number], joint.push);
@@ -313,8 +404,11 @@ void ClosureRows::keep_push(const Closure& closure, const ClosureRow& row, std::
 
 void ClosureRows::hold_springs() {
     for_each([&](const Closure& closure) {
-        Joint& joint = scene_.joints[closure.joint];
-        if (closure.closes && has_soft_points(joint.constants)) {
+        if (closure.kind != Closure::Kind::closing) {
+            return;
+        }
+        Joint& joint = joint_of(closure);
+        if (has_soft_points(joint.constants)) {
             hold_spring(joint, body_a(closure), body_b(closure));
         }
     });

@@ -4,6 +4,8 @@
 
 #include "rigid/closure_system.h"
 #include "rigid/closure_tree.h"
+#include "rigid/contact.h"
+#include "rigid/foot_rows.h"
 #include "rigid/joint_distance.h"
 
 namespace lks {
@@ -37,6 +39,20 @@ public:
             }
         });
     }
+    // use(side, push at its lever): of each point that pushed in the substep before, in the body's own unit.
+    template <typename Use>
+    void for_each_foot_push(const Use& use) {
+        for_each([&](const Closure& closure) {
+            for (std::uint32_t i = 0; i < feet_points(closure); ++i) {
+                const Contact& contact = contact_of(closure);
+                if (contact.points[i].active && contact.points[i].push.normal != 0) {
+                    const auto [side, push] =
+                        pushed_by_foot(closure, i, pushed_at(contact, contact.points[i]));
+                    use(side, push);
+                }
+            }
+        });
+    }
     // use(side that moves, whether it is a's)
     template <typename Use>
     static void for_each_side(const Closure& closure, const Use& use) {
@@ -60,21 +76,35 @@ public:
 
 private:
     template <typename Use>
-    void for_each(const Use& use) {
+    void for_each(const Use& use) const {
         for (std::uint32_t i = range_.first; i < range_.end; ++i) {
             use(scene_.closures[i]);
         }
     }
     const Body& body_a(const Closure& closure) const { return scene_.bodies[closure.a.body]; }
     const Body& body_b(const Closure& closure) const { return scene_.bodies[closure.b.body]; }
+    Joint& joint_of(const Closure& closure) const { return scene_.joints[closure.index]; }
+    Contact& contact_of(const Closure& closure) const { return scene_.contacts[closure.index]; }
+    ContactBodies foot_bodies(const Closure& closure) const;
+    std::uint32_t feet_points(const Closure& closure) const {
+        return closure.kind == Closure::Kind::foot ? contact_of(closure).count : 0;
+    }
+    struct FootPush {
+        ClosureSide side; // its lever is the point's
+        fixed::Vec3 push;
+    };
+    FootPush pushed_by_foot(const Closure& closure, std::uint32_t point, const fixed::Vec3& push) const;
+    fixed::Vec3 foot_lever_of(const Closure& closure, std::uint32_t point) const;
+    bool is_near_point(const Closure& closure, std::uint32_t point) const;
 
     std::uint32_t rows_to_close(const Closure& closure) const;
     std::int64_t find_margin(std::uint32_t room);
+    bool is_driven(const Joint& joint) const;
     std::uint32_t limits_of(const Closure& closure, HeldRow (&limits)[most_held_rows]) const;
-    void place(Closure& closure);
+    void place_joint(Closure& closure);
+    void place_foot(Closure& closure);
     void place_limits(Closure& closure, std::int64_t margin, std::uint32_t room);
-    void add(Closure& closure, ClosureRow::Kind kind, const fixed::Direction& along,
-             HeldRow::Kind limit = HeldRow::Kind::turn);
+    ClosureRow& add(Closure& closure, ClosureRow::Kind kind, const fixed::Direction& along);
     DistanceError distance_error_of(const Closure& closure) const;
     fixed::Vec3 left_apart_of(const Closure& closure) const;
     struct Measured {
@@ -86,6 +116,9 @@ private:
     Measured measure(const Closure& closure) const;
     bool measure(const Closure& closure, const Measured& measured, const ClosureRow& row,
                  std::uint32_t number, ClosureUnknown& unknown);
+    bool measure_joint(const Closure& closure, const Measured& measured, const ClosureRow& row,
+                       std::uint32_t number, ClosureUnknown& unknown);
+    void measure_foot(const Closure& closure, const ClosureRow& row, ClosureUnknown& unknown) const;
     void keep_push(const Closure& closure, const ClosureRow& row, std::uint32_t number,
                    const ClosureUnknown& unknown);
 

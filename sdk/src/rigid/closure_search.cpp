@@ -21,11 +21,11 @@ public:
         scene_.closure_rows.clear();
         scene_.closure_matrix.clear();
         find_candidates();
-        const Array<std::uint64_t>& found = scene_.closing_joints;
-        for (std::size_t i = 0; i < found.size();) {
-            const std::size_t end = end_of_figure(i);
-            take(i, end);
-            i = end;
+        Found joints{scene_.closing_joints.begin(), scene_.closing_joints.end()};
+        Found feet{scene_.foot_contacts.begin(), scene_.foot_contacts.end()};
+        while (!joints.empty() || !feet.empty()) {
+            const std::uint32_t figure = std::min(joints.next_figure(), feet.next_figure());
+            take(figure, joints.cut_off(figure), feet.cut_off(figure));
         }
         if (!scene_.closures.empty()) { // within its room
             static_cast<void>(scene_.closure_tree_joints.resize(scene_.tree_joints.size()));
@@ -33,7 +33,26 @@ public:
     }
 
 private:
-    static std::uint32_t figure_of(std::uint64_t found) { return static_cast<std::uint32_t>(found >> 32); }
+    // Indices of joints, or contacts, behind that of their figure; ascending.
+    struct Found {
+        const std::uint64_t* first;
+        const std::uint64_t* end;
+
+        bool empty() const { return first == end; }
+        std::size_t size() const { return static_cast<std::size_t>(end - first); }
+        std::uint32_t next_figure() const {
+            return empty() ? UINT32_MAX : static_cast<std::uint32_t>(*first >> 32);
+        }
+        // Those of the figure, which are its first ones.
+        Found cut_off(std::uint32_t figure) {
+            Found its{first, first};
+            while (next_figure() == figure) {
+                its.end = ++first;
+            }
+            return its;
+        }
+    };
+
     Joint& joint_of(std::uint64_t found) { return scene_.joints[static_cast<std::uint32_t>(found)]; }
     const Body& body(std::uint32_t index) const { return scene_.bodies[index]; }
 
@@ -77,40 +96,41 @@ private:
                                     : !part.has_points && !part.attached && !part.loads_rope;
     }
 
-    std::size_t end_of_figure(std::size_t first) const {
-        const Array<std::uint64_t>& found = scene_.closing_joints;
-        std::size_t end = first;
-        while (end < found.size() && figure_of(found[end]) == figure_of(found[first])) {
-            ++end;
-        }
-        return end;
-    }
-
-    // All of a figure's, or none: where there is no room for them.
-    void take(std::size_t first, std::size_t end) {
+    // All that closes its loops, or none: where there is no room for it. Of its feet as many as there is.
+    void take(std::uint32_t figure, Found joints, Found feet) {
         std::size_t rows = 0;
-        std::size_t joints = 0; // of the greatest tree
-        for (std::size_t i = first; i < end; ++i) {
-            const Joint& joint = joint_of(scene_.closing_joints[i]);
-            rows += closing_rows(joint);
-            joints = std::max(
-                {joints, joints_beside(joint.description.body_a), joints_beside(joint.description.body_b)});
+        std::size_t beside = 0; // of the greatest tree
+        for (const std::uint64_t* joint = joints.first; joint != joints.end; ++joint) {
+            const JointDescription& d = joint_of(*joint).description;
+            rows += closing_rows(joint_of(*joint));
+            beside = std::max({beside, joints_beside(d.body_a), joints_beside(d.body_b)});
         }
-        const std::size_t room = closure_rows_a_joint * (end - first + joints);
-        if (rows > std::min<std::size_t>(room, most_closure_rows)) {
+        if (rows >
+            std::min<std::size_t>(closure_rows_a_joint * (joints.size() + beside), most_closure_rows)) {
+            joints.end = joints.first;
+        }
+        if (joints.empty() && feet.empty()) {
             return;
         }
         ClosureRange range{};
-        range.figure = figure_of(scene_.closing_joints[first]);
+        range.figure = figure;
+        range.stands = !feet.empty();
         range.first = static_cast<std::uint32_t>(scene_.closures.size());
-        for (std::size_t i = first; i < end; ++i) {
-            add_closing(static_cast<std::uint32_t>(scene_.closing_joints[i]));
+        for (const std::uint64_t* joint = joints.first; joint != joints.end; ++joint) {
+            add_closing(static_cast<std::uint32_t>(*joint));
+        }
+        const std::size_t room = foot_room(joints, feet, rows);
+        for (const std::uint64_t* foot = feet.first; foot != feet.end && foot != feet.first + room; ++foot) {
+            const auto contact = static_cast<std::uint32_t>(*foot);
+            scene_.contacts[contact].of_foot = true;
+            scene_.closures.push_reserved(foot_of(contact));
         }
         range.end = static_cast<std::uint32_t>(scene_.closures.size());
         find_shares(range);
         const std::size_t tree_joints = add_trees(range);
+        const std::uint32_t rows_a_joint = range.stands ? standing_rows_a_joint : closure_rows_a_joint;
         range.row_room = static_cast<std::uint32_t>(
-            std::min<std::size_t>(closure_rows_a_joint * (end - first + tree_joints), most_closure_rows));
+            std::min<std::size_t>(rows_a_joint * (joints.size() + tree_joints), most_closure_rows));
         range.first_row = static_cast<std::uint32_t>(scene_.closure_rows.size());
         range.first_entry = static_cast<std::uint32_t>(scene_.closure_matrix.size());
         // Within their room.
@@ -119,17 +139,42 @@ private:
         scene_.closure_ranges.push_reserved(range);
     }
 
+    // How many of its feet.
+    std::size_t foot_room(Found joints, Found feet, std::size_t rows) const {
+        std::size_t beside = 0; // of the least tree that stands
+        for (const std::uint64_t* foot = feet.first; foot != feet.end; ++foot) {
+            const std::size_t its = joints_beside(foot_body(static_cast<std::uint32_t>(*foot)));
+            beside = foot == feet.first ? its : std::min(beside, its);
+        }
+        const std::size_t all = (standing_rows_a_joint - closure_rows_a_joint) * (joints.size() + beside);
+        return std::min<std::size_t>(all, most_closure_rows - rows) / greatest_point_count;
+    }
+    std::uint32_t foot_body(std::uint32_t contact) const {
+        const ContactKey& key = scene_.contacts[contact].key;
+        return body(key.body_a).is_awake() ? key.body_a : key.other;
+    }
+    // Contacts keep colliders as others; what does not move is never looked at.
+    Closure foot_of(std::uint32_t contact) {
+        const std::uint32_t foot = foot_body(contact);
+        Closure closure{};
+        closure.kind = Closure::Kind::foot;
+        closure.index = contact;
+        closure.a = closure.b = {foot, no_tree, {}};
+        (foot == scene_.contacts[contact].key.body_a ? closure.a : closure.b).tree = tree_of(foot);
+        return closure;
+    }
+
     // In its tree.
     std::size_t joints_beside(std::uint32_t index) const {
         const std::uint32_t tree = body(index).is_awake() ? scene_.articulated[index].tree : no_tree;
         return tree == no_tree ? 0 : scene_.trees[tree].joint_end - scene_.trees[tree].first_joint;
     }
 
-    Closure closure_of(std::uint32_t joint, bool closes) {
+    Closure closure_of(std::uint32_t joint, Closure::Kind kind) {
         const JointDescription& d = scene_.joints[joint].description;
         Closure closure{};
-        closure.joint = joint;
-        closure.closes = closes;
+        closure.kind = kind;
+        closure.index = joint;
         closure.a = {d.body_a, tree_of(d.body_a), {}};
         closure.b = {d.body_b, tree_of(d.body_b), {}};
         return closure;
@@ -138,7 +183,7 @@ private:
     void add_closing(std::uint32_t index) {
         Joint& joint = scene_.joints[index];
         joint.in_tree = joint.closes_loop = joint.turns_in_tree = true;
-        scene_.closures.push_reserved(closure_of(index, true));
+        scene_.closures.push_reserved(closure_of(index, Closure::Kind::closing));
     }
 
     // What their joints turn is solved with them, and so are their limits. How many joints they have.
@@ -175,8 +220,9 @@ private:
             ArticulatedJoint& part = scene_.tree_joints[i];
             part.pair_share = tree_detail::pair_share_of(scene_, part);
             scene_.joints[part.joint].turns_in_tree = true;
+            scene_.joints[part.joint].carries_torque = range.stands;
             if (has_limits(scene_.joints[part.joint].constants)) {
-                Closure closure = closure_of(part.joint, false);
+                Closure closure = closure_of(part.joint, Closure::Kind::limits);
                 closure.pair_share = pair_share_of(closure, range);
                 scene_.closures.push_reserved(closure);
             }

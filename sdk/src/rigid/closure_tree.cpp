@@ -2,6 +2,8 @@
 
 #include "rigid/articulation.h"
 #include "rigid/articulation_joint.h"
+#include "rigid/held_tree.h"
+#include "rigid/joint_drive.h"
 #include "rigid/joint_turns.h"
 #include "rigid/uneven_tree.h"
 
@@ -34,7 +36,9 @@ ClosureTreeJoint& ClosureTree::rows_of(const ArticulatedJoint& part) {
 
 void ClosureTree::place(const ArticulatedJoint& part, const Joint& joint, ClosureTreeJoint& rows) {
     HeldRow turns[most_held_rows];
-    rows.turn_count = turn_rows(joint, body_a(joint), body_b(joint), true, turns);
+    rows.first_drive = turn_rows(joint, body_a(joint), body_b(joint), true, turns);
+    rows.turn_count =
+        rows.first_drive + drive_rows(joint, body_a(joint), body_b(joint), turns + rows.first_drive);
     rows.parent_lever = lever_in_units(scene_.bodies[part.parent], point_of(joint, !part.child_is_a));
     if (part.child_moves) {
         rows.child_lever = lever_in_units(scene_.bodies[part.child], point_of(joint, part.child_is_a));
@@ -71,9 +75,9 @@ void ClosureTree::factor_joint(const ArticulatedJoint& part, const Joint& joint,
     Algebra::add_motions(scene_.articulated[part.parent].inverse, wrenches, rows, d);
     for (std::uint32_t i = 0; i < rows.turn_count; ++i) {
         const std::int64_t by_child = part.child_moves ? own_turn_about(part.child, rows.child_axes[i]) : 0;
+        const std::int64_t own = plus(by_child, own_turn_about(part.parent, rows.parent_axes[i]));
         std::int64_t& entry = d[point_rows + static_cast<int>(i)][point_rows + static_cast<int>(i)];
-        entry =
-            plus(entry, plus(by_child, own_turn_about(part.parent, rows.parent_axes[i])) >> turn_give_shift);
+        entry = plus(entry, own >> turn_give_shift);
     }
     if (springs_give) {
         const std::int64_t give = points_give(joint, part.pair_share) * (std::int64_t{1} << more_bits);
@@ -112,6 +116,14 @@ bool ClosureTree::is_apart() const {
     return false;
 }
 
+void ClosureTree::carry(std::uint32_t body, const Vec3& lever, const Vec3& push) {
+    ArticulatedBody& part = scene_.articulated[body];
+    const Inverse inverse = invert_pivot(part.share);
+    const Vec3 force{divide(push.x, inverse), divide(push.y, inverse), divide(push.z, inverse)};
+    part.carried_force = part.carried_force + force;
+    part.carried_torque = part.carried_torque + cross_32(lever, force);
+}
+
 void ClosureTree::begin() {
     for_each_body([](const Body&, ArticulatedBody& part) {
         part.shift = part.turn = part.force = part.torque = {0, 0, 0};
@@ -127,25 +139,18 @@ void ClosureTree::add_own_motion(std::uint32_t body, const Wrench& push) {
 
 void ClosureTree::solve(bool in_substep) {
     for_each_body([this](const Body& body, ArticulatedBody& part) {
-        part.shift = part.turn = part.force = part.torque = {0, 0, 0};
-        if (range_.is_held) {
-            part.turn = own_turn<fine_fraction_bits>(body, part.fine_share, part.carried_torque);
-        }
+        part.force = part.torque = {0, 0, 0};
+        part.shift = rounded_share<fine_fraction_bits>(part.fine_share, part.carried_force);
+        part.turn = own_turn<fine_fraction_bits>(body, part.fine_share, part.carried_torque);
     });
     for_each_joint_back([&](const ArticulatedJoint& part, const Joint& joint) {
         fold_errors(part, joint, in_substep, rows_of(part));
     });
     for_each_joint([this](const ArticulatedJoint& part, const Joint&) { hand_down(part, rows_of(part)); });
-    for_each_body([this](const Body&, ArticulatedBody& part) {
-        if (range_.is_held) {
-            part.torque = part.torque + part.carried_torque;
-            part.carried_torque = {0, 0, 0};
-        }
+    for_each_body([](const Body&, ArticulatedBody& part) {
+        part.force = part.force + part.carried_force;
+        part.torque = part.torque + part.carried_torque;
     });
-    move();
-    if (in_substep) {
-        keep_pushes();
-    }
 }
 
 void ClosureTree::fold_errors(const ArticulatedJoint& part, const Joint& joint, bool in_substep,
@@ -157,7 +162,10 @@ void ClosureTree::fold_errors(const ArticulatedJoint& part, const Joint& joint, 
         clamp_vector(apart, greatest_step);
     }
     std::int64_t turned[most_held_rows] = {};
-    const Vec3 error = turn_error(joint, a, b, in_substep);
+    Vec3 error = turn_error(joint, a, b, in_substep);
+    if (in_substep && rows.first_drive != rows.turn_count) {
+        error = error + drive_error(joint, a, b);
+    }
     for (std::uint32_t i = 0; i < rows.turn_count; ++i) {
         const std::int64_t about =
             std::clamp(fixed::dot(rows.axes[i], error), -most_turned_back, most_turned_back);
@@ -245,7 +253,10 @@ std::int64_t ClosureTree::own_give(std::uint32_t body, const Wrench& push) const
 }
 
 void ClosureTree::move() {
-    for_each_body([](Body& body, const ArticulatedBody& part) { apply(body, move_uneven(body, part)); });
+    for_each_body([](Body& body, ArticulatedBody& part) {
+        apply(body, move_uneven(body, part));
+        part.carried_force = part.carried_torque = {0, 0, 0};
+    });
 }
 
 void ClosureTree::keep_pushes() {
@@ -253,15 +264,40 @@ void ClosureTree::keep_pushes() {
         const ClosureTreeJoint& rows = rows_of(part);
         const Vec3 push{rows.push[0], rows.push[1], rows.push[2]};
         add_tree_push(joint, multiply_32(part.pair_share, part.child_is_a ? -push : push), range_.is_uneven);
-        for (std::uint32_t i = 0; i < rows.turn_count; ++i) {
-            const std::int64_t turned = rows.push[point_rows + i];
-            const std::int64_t more =
-                lks::shifted(lks::multiply_32(part.pair_share, part.child_is_a ? -turned : turned),
-                             -joint.constants.reach);
-            joint.turn = joint.turn + fixed::scale(rows.axes[i], more);
-            clamp_vector(joint.turn, greatest_push);
+        joint.turn = joint.turn + turned_by(part, joint, rows, 0, rows.first_drive);
+        clamp_vector(joint.turn, greatest_push);
+        joint.grip = joint.grip + turned_by(part, joint, rows, rows.first_drive, rows.turn_count);
+    });
+}
+
+// By its last pushes, of some of its rows.
+Vec3 ClosureTree::turned_by(const ArticulatedJoint& part, const Joint& joint, const ClosureTreeJoint& rows,
+                            std::uint32_t first, std::uint32_t end) const {
+    Vec3 sum{0, 0, 0};
+    for (std::uint32_t i = first; i < end; ++i) {
+        const std::int64_t turned = rows.push[point_rows + i];
+        const std::int64_t more = lks::shifted(
+            lks::multiply_32(part.pair_share, part.child_is_a ? -turned : turned), -joint.constants.reach);
+        sum = sum + fixed::scale(rows.axes[i], more);
+    }
+    return sum;
+}
+
+bool ClosureTree::drop_motors() {
+    bool any = false;
+    for_each_joint([&](const ArticulatedJoint& part, Joint& joint) {
+        const ClosureTreeJoint& rows = rows_of(part);
+        if (joint.motor_in_tree &&
+            is_beyond_drive(joint, turned_by(part, joint, rows, rows.first_drive, rows.turn_count))) {
+            joint.motor_in_tree = false;
+            any = true;
         }
     });
+    return any;
+}
+
+void ClosureTree::take_motors() {
+    for_each_joint([](const ArticulatedJoint&, Joint& joint) { joint.motor_in_tree = has_motor(joint); });
 }
 
 } // namespace lks

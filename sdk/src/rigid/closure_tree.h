@@ -33,10 +33,13 @@ public:
     // With springs that give, or that are held.
     void factor(bool springs_give);
 
-    // Brings what its joints hold together, with speed or without.
+    // Finds what brings together what its joints hold, with speed or without.
     void solve(bool in_substep);
 
     bool is_apart() const;
+
+    // Pushed at a lever in the body's unit, the next solve begins with it: World, in the body's own unit.
+    void carry(std::uint32_t body, const fixed::Vec3& lever, const fixed::Vec3& push);
 
     // What pushes it: first what each body that is pushed would do by itself,
     void begin();
@@ -51,6 +54,11 @@ public:
     // the bodies go there; its joints remember their pushes.
     void move();
     void keep_pushes();
+    // Motors of which that asks more than they are capable of are left to the sweeps, once its factors are
+    // found anew. False: they are capable of all.
+    bool drop_motors();
+    // As at the beginning of a substep.
+    void take_motors();
 
     // What a push does to a body by itself, and how far it goes along the push.
     OwnMotion own_motion(std::uint32_t body, const Wrench& push) const;
@@ -65,6 +73,8 @@ private:
                       ClosureTreeJoint& rows);
     int find_wrenches(const ClosureTreeJoint& rows, const fixed::Vec3& lever,
                       const fixed::Vec3 (&axes)[most_held_rows], Wrench (&wrenches)[most_rows]) const;
+    fixed::Vec3 turned_by(const ArticulatedJoint& part, const Joint& joint, const ClosureTreeJoint& rows,
+                          std::uint32_t first, std::uint32_t end) const;
     std::int64_t own_turn_about(std::uint32_t body, const fixed::Vec3& axis) const;
     void fold(const ArticulatedJoint& part, ClosureTreeJoint& rows);
     void fold_errors(const ArticulatedJoint& part, const Joint& joint, bool in_substep,

@@ -10,6 +10,7 @@ struct ClosureTreeJoint : RowJoint<FineRows> { // its points' rows, and those of
     fixed::Vec3 child_lever;                   // as ArticulatedJoint's
     fixed::Vec3 parent_lever;
     std::uint32_t turn_count;
+    std::uint32_t first_drive;              // of those: what the motor turns
     fixed::Direction axes[most_held_rows];  // in the world
     fixed::Vec3 child_axes[most_held_rows]; // times the reach, in the body's unit, 40 fraction bits
     fixed::Vec3 parent_axes[most_held_rows];

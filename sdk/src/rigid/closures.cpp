@@ -4,6 +4,7 @@
 
 #include "rigid/closure_matrix.h"
 #include "rigid/figures.h"
+#include "rigid/joint_drive.h"
 
 namespace lks {
 namespace {
@@ -30,26 +31,75 @@ public:
         find_closure_matrix(scene_, figure_, rows_, matrix());
     }
 
+    // Once a substep.
+    void begin() {
+        if (range_.stands) {
+            for_each_tree([](ClosureTree tree) { tree.take_motors(); });
+        }
+    }
+
+    void carry_feet() {
+        rows_.for_each_foot_push([this](const ClosureSide& side, const fixed::Vec3& push) {
+            tree_of(side).carry(side.body, side.lever, push);
+        });
+    }
+
+    // Again where motors are not capable of what it takes.
     void solve() {
+        while (!solve_once()) { // which drops a motor at least each time
+            factor();
+        }
+    }
+
+private:
+    // False: motors are not capable of it.
+    bool solve_once() { return solve_trees() && solve_rows(); }
+
+    bool drop_motors() {
+        bool any = false;
+        if (range_.stands && in_substep_) {
+            for_each_tree([&any](ClosureTree tree) { any = tree.drop_motors() || any; });
+        }
+        return any;
+    }
+
+    // False: nothing was moved, as motors are not capable of that.
+    bool solve_trees() {
         for_each_tree([this](ClosureTree tree) { tree.solve(in_substep_); });
+        if (drop_motors()) {
+            return false;
+        }
+        for_each_tree([this](ClosureTree tree) { move(tree); });
+        return true;
+    }
+
+    bool solve_rows() {
         if (!rows_.measure(unknowns_)) {
             factor();
             static_cast<void>(rows_.measure(unknowns_));
         }
         for (int softer = give_shift;; softer -= softer_shift) {
-            solve_rows(matrix(), unknowns_, rows_.count(), softer);
+            lks::solve_rows(matrix(), unknowns_, rows_.count(), softer);
             if (std::all_of(unknowns_, unknowns_ + rows_.count(),
                             [](const ClosureUnknown& row) { return row.more == 0; })) {
-                return;
+                return true;
             }
             push();
             if (softer < softer_shift || !bends_too_far()) {
                 break;
             }
         }
-        move();
+        if (drop_motors()) {
+            return false;
+        }
+        for_each_tree([this](ClosureTree tree) { move(tree); });
+        if (in_substep_) {
+            rows_.keep_pushes(unknowns_);
+        }
+        return true;
     }
 
+public:
     // By more than a tenth of what rows that don't push are let be.
     bool is_apart() {
         bool apart = false;
@@ -135,15 +185,10 @@ private:
         return most;
     }
 
-    void move() {
-        for_each_tree([this](ClosureTree tree) {
-            tree.move();
-            if (in_substep_) {
-                tree.keep_pushes();
-            }
-        });
+    void move(ClosureTree tree) const {
+        tree.move();
         if (in_substep_) {
-            rows_.keep_pushes(unknowns_);
+            tree.keep_pushes();
         }
     }
 
@@ -159,7 +204,15 @@ private:
 
 void factor_closures(RigidScene& scene, const FigureRange& figure) {
     if (figure.closures != no_closures) {
-        FigureClosures(scene, figure, true).factor();
+        FigureClosures closures(scene, figure, true);
+        closures.begin();
+        closures.factor();
+    }
+}
+
+void carry_feet(RigidScene& scene, const FigureRange& figure) {
+    if (stands_on_light_feet(scene, figure)) {
+        FigureClosures(scene, figure, true).carry_feet();
     }
 }
 

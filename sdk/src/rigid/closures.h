@@ -27,6 +27,8 @@ void find_closures(RigidScene& scene);
 
 // After the factors of all trees of the figure.
 void factor_closures(RigidScene& scene, const FigureRange& figure);
+// Once its rows are: what light feet pushed in the substep before is what the next solve begins with.
+void carry_feet(RigidScene& scene, const FigureRange& figure);
 // With speed: its trees that have any, which solve_articulation leaves to this, and what closes their loops.
 void solve_closures(RigidScene& scene, const FigureRange& figure);
 // Once velocities are known, and the trees' errors are undone: without.

@@ -103,6 +103,7 @@ struct Contact {
     std::int64_t given_speed;       // World m/s: what it gave along its normals in this tick, added up
     bool every_substep;             // its points are looked for in each, not once a tick
     std::int64_t gravity_speed;     // World m/s: that a substep of gravity gives its bodies at most
+    bool of_foot;                   // solved with the trees (rigid/light_feet.h)
     bool fast;                      // one may pass the middle of the other in a tick; never a plane's
     fixed::Direction directions[3]; // the normal, from a to b, and two across it
     // Of the substep: a push along the normal at the middle of all active points, where they are several.

@@ -61,6 +61,9 @@ void FigureContacts::project_back(const FigureRange& figure) const {
 void FigureContacts::push_again(const FigureRange& figure) const {
     for_each_acting(scene_, figure, Part::contact, [this](std::uint32_t i) {
         Contact& contact = scene_.contacts[i];
+        if (contact.of_foot) {
+            return; // carry_feet
+        }
         const ContactBodies bodies = bodies_of(contact);
         if (bodies.a.is_awake()) {
             carry_on(contact, true, move_of(contact.key.body_a));

@@ -47,6 +47,11 @@ void for_each_part_back(const RigidScene& scene, const FigureRange& figure, Part
     }
 }
 
+// Contacts of its are solved with its trees (rigid/light_feet.h).
+inline bool stands_on_light_feet(const RigidScene& scene, const FigureRange& figure) {
+    return figure.closures != no_closures && scene.closure_ranges[figure.closures].stands;
+}
+
 // One of its trees has masses of 1 : 100 and more (rigid/uneven_tree.h).
 inline bool has_uneven_tree(const RigidScene& scene, const FigureRange& figure) {
     bool uneven = false;

@@ -216,7 +216,7 @@ void project(Joint& joint, Body& a, Body& b) {
     // A motor's turn is about the joint, a row's about the centres of mass: with the points in between, some
     // rounds make one of the other. (With one round a spider's legs bent by 15°, with four by 5°.)
     constexpr int more_rounds = 3;
-    for (int i = 0; i < more_rounds && joint.description.motor_torque != 0; ++i) {
+    for (int i = 0; i < more_rounds && joint.description.motor_torque != 0 && !joint.motor_in_tree; ++i) {
         project_drive(joint, a, b);
         project_points(joint, a, b);
     }

@@ -117,6 +117,39 @@ void aim_motor(Joint& joint, const Body& a, const Body& b) {
     }
 }
 
+std::uint32_t drive_rows(const Joint& joint, const Body& a, const Body& b, HeldRow* rows) {
+    if (!joint.motor_in_tree) {
+        return 0;
+    }
+    Direction axes[3] = {{direction_one, 0, 0}, {0, direction_one, 0}, {0, 0, direction_one}};
+    std::uint32_t count = 3;
+    if (joint.description.kind == LKS_JOINT_HINGE) {
+        axes[0] = fixed::rotate(a.rotation, joint.constants.axis_a);
+        count = 1;
+    }
+    const Vec3 error = drive_error(joint, a, b);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        rows[i] = {HeldRow::Kind::drive, axes[i], fixed::dot(axes[i], error), 0};
+    }
+    return count;
+}
+
+Vec3 drive_error(const Joint& joint, const Body& a, const Body& b) {
+    const Vec3 error = driven_part(joint, a, turned_since_start(a, b) - joint.aim);
+    return {to_angle(error.x), to_angle(error.y), to_angle(error.z)};
+}
+
+bool is_exhausted(const Joint& joint) {
+    const std::int64_t most = joint.constants.grip;
+    fixed::NormalisedVector size{};
+    return fixed::normalise(joint.grip, size) && size.length >= most - most / 64;
+}
+
+bool is_beyond_drive(const Joint& joint, const Vec3& more) {
+    fixed::NormalisedVector size{};
+    return fixed::normalise(joint.grip + more, size) && size.length > joint.constants.grip;
+}
+
 void prepare_drive(Joint& joint, const Body& a) {
     joint.drag = {0, 0, 0};
     if (joint.constants.grip == 0) {
@@ -155,7 +188,7 @@ void project_drive(Joint& joint, Body& a, Body& b) {
     if (joint.constants.drag_softness != 0) {
         drag(joint, a, b);
     }
-    if (joint.constants.grip != 0) {
+    if (joint.constants.grip != 0 && !joint.motor_in_tree) {
         drive(joint, a, b);
     }
 }

@@ -12,9 +12,17 @@
 // axis.
 #pragma once
 
+#include "rigid/held_row.h"
 #include "rigid/joint.h"
 
 namespace lks {
+
+inline bool has_motor(const Joint& joint) {
+    return joint.description.motor_torque != 0 && joint.constants.grip != 0;
+}
+
+// It turned with all it is capable of, or nearly, in the substep before.
+bool is_exhausted(const Joint& joint);
 
 // Before the prediction: what the motor is to turn in this substep.
 void aim_motor(Joint& joint, const Body& a, const Body& b);
@@ -24,6 +32,15 @@ void carry_drive_on(const Joint& joint, Body& a, Body& b);
 // Adds a share of it, which is to be pushed.
 fixed::Vec3 add_to_drive(Joint& joint, std::int32_t share);
 void project_drive(Joint& joint, Body& a, Body& b);
+
+// What the motor turns, as rows of its tree, up to what rows has room for: about which axes, and how far b
+// has turned about each beyond what it is to. How many.
+std::uint32_t drive_rows(const Joint& joint, const Body& a, const Body& b, HeldRow* rows);
+// All of them in one, in the world: an angle, World.
+fixed::Vec3 drive_error(const Joint& joint, const Body& a, const Body& b);
+// Whether turning so much more is beyond it.
+bool is_beyond_drive(const Joint& joint, const fixed::Vec3& more);
+
 // What a push that turns b against a, an angle, has done in this substep, as motions of the joint's lighter
 // body count (rigid/substep_motion.h): 52 fraction bits.
 std::int64_t work_of_turning(const Joint& joint, const Body& a, const Body& b, const fixed::Vec3& turned);

@@ -27,16 +27,16 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       contact_marks(allocator), contacts_act(allocator), contact_moves(allocator), next_memories(allocator),
       islands(allocator), tree_roots(allocator), tree_links(allocator), tree_bodies(allocator),
       tree_joints(allocator), articulated(allocator), trees(allocator), held_joints(allocator),
-      uneven_joints(allocator), closing_joints(allocator), closures(allocator), closure_rows(allocator),
-      closure_ranges(allocator), closure_matrix(allocator), closure_tree_joints(allocator),
-      figures(allocator), figure_parts(allocator), figure_ranges(allocator), figure_bundles(allocator),
-      wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator), figure_shares(allocator),
-      substep_motions(allocator), predicted_speeds(allocator), figure_masses(allocator),
-      figures_changed(allocator), strained_figures(allocator), figure_shifts(allocator),
-      figure_pairs(allocator), island_rests(allocator), is_coupled(allocator), coupled(allocator),
-      object_pairs(allocator), object_pushes(allocator), object_touches(allocator), held(allocator),
-      rope_loads(allocator), particle_loads(allocator), loaded_bodies(allocator), loaded_joints(allocator),
-      loaded_attachments(allocator), tree_kernels_(tree_kernels) {}
+      uneven_joints(allocator), foot_contacts(allocator), closing_joints(allocator), closures(allocator),
+      closure_rows(allocator), closure_ranges(allocator), closure_matrix(allocator),
+      closure_tree_joints(allocator), figures(allocator), figure_parts(allocator), figure_ranges(allocator),
+      figure_bundles(allocator), wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator),
+      figure_shares(allocator), substep_motions(allocator), predicted_speeds(allocator),
+      figure_masses(allocator), figures_changed(allocator), strained_figures(allocator),
+      figure_shifts(allocator), figure_pairs(allocator), island_rests(allocator), is_coupled(allocator),
+      coupled(allocator), object_pairs(allocator), object_pushes(allocator), object_touches(allocator),
+      held(allocator), rope_loads(allocator), particle_loads(allocator), loaded_bodies(allocator),
+      loaded_joints(allocator), loaded_attachments(allocator), tree_kernels_(tree_kernels) {}
 
 // A bundle takes the same for any number of trees.
 std::size_t RigidScene::wide_room(std::size_t count) const {
@@ -73,7 +73,7 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
         figure_masses.reserve(body_count) && figures_changed.reserve(body_count) &&
         strained_figures.reserve(body_count) && figure_shifts.reserve(body_count + 1) &&
         figure_pairs.reserve(contact_capacity(body_count)) && figure_bundles.reserve(body_count) &&
-        wide_bodies.reserve(wide_room(body_count)) &&
+        wide_bodies.reserve(wide_room(body_count)) && foot_contacts.reserve(contact_capacity(body_count)) &&
         object_pairs.reserve(object_pair_capacity(object_room_, body_count)) &&
         object_pushes.reserve(object_pair_capacity(object_room_, body_count)) &&
         object_touches.reserve(object_pair_capacity(object_room_, body_count));
@@ -87,8 +87,8 @@ bool RigidScene::reserve_joints(std::size_t count) {
         joint_slots.reserve(count) && joints.reserve(count) && loaded_joints.reserve(count) &&
         jointed.reserve(count) && tree_links.reserve(2 * count) && tree_joints.reserve(count) &&
         held_joints.reserve(count) && uneven_joints.reserve(count) && trees.reserve(2 * count) &&
-        closing_joints.reserve(count) && closures.reserve(count) &&
-        closure_rows.reserve(closure_rows_a_joint * count) && closure_ranges.reserve(count) &&
+        closing_joints.reserve(count) && closures.reserve(closure_room(count)) &&
+        closure_rows.reserve(standing_rows_a_joint * count) && closure_ranges.reserve(count) &&
         closure_tree_joints.reserve(count) && closure_matrix.reserve(greatest_closure_entries(count)) &&
         wide_joints.reserve(wide_room(count)) && reserve_figures(body_room_, count, attachment_room_);
     joint_room_ = done ? std::max(joint_room_, count) : joint_room_;

@@ -123,8 +123,9 @@ struct RigidScene {
     Array<ArticulatedJoint> tree_joints; // from the roots on
     Array<ArticulatedBody> articulated;  // by body
     Array<ArticulatedTree> trees;
-    Array<HeldJoint> held_joints;     // by tree joint, where a tree is held (rigid/held_tree.h)
-    Array<UnevenJoint> uneven_joints; // the same where one's masses are uneven (rigid/uneven_tree.h)
+    Array<HeldJoint> held_joints;       // by tree joint, where a tree is held (rigid/held_tree.h)
+    Array<UnevenJoint> uneven_joints;   // the same where one's masses are uneven (rigid/uneven_tree.h)
+    Array<std::uint64_t> foot_contacts; // figure << 32 | contact, ascending (rigid/light_feet.h)
     // Of rigid/closures.h.
     Array<std::uint64_t> closing_joints; // figure << 32 | joint, ascending
     Array<Closure> closures;             // figure by figure: what closes loops, and trees' joints with limits

@@ -107,7 +107,7 @@ void RigidSubstep::carry_pushes_on() {
         blocks_.for_each_figure(bundle, [this](const FigureRange& figure) {
             blocks_.for_each_joint(figure, [this](Joint& joint, Body& a, Body& b) {
                 prepare_pushes(joint, a, b);
-                if (joint.in_held_tree) {
+                if (joint.in_held_tree || joint.carries_torque) {
                     carry_torque(scene_, joint, carried_turn(joint, a, b));
                 } else {
                     lks::carry_pushes_on(joint, a, b);
@@ -127,7 +127,10 @@ void RigidSubstep::carry_pushes_on() {
         }
     });
     blocks_.in_bundles([this](const FigureBundle& bundle) {
-        blocks_.for_each_figure(bundle, [this](const FigureRange& figure) { contacts_.push_again(figure); });
+        blocks_.for_each_figure(bundle, [this](const FigureRange& figure) {
+            contacts_.push_again(figure);
+            carry_feet(scene_, figure);
+        });
         solve_trees(bundle);
     });
     static_cast<void>(scene_.substep_motions.resize(scene_.bodies.size())); // within their room

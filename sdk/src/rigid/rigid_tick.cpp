@@ -11,6 +11,7 @@
 #include "rigid/coupling.h"
 #include "rigid/figure_overlaps.h"
 #include "rigid/figures.h"
+#include "rigid/light_feet.h"
 #include "rigid/motor_aim.h"
 #include "rigid/particle_touch.h"
 #include "rigid/rigid_substep.h"
@@ -48,6 +49,7 @@ public:
             static_cast<void>(scene_.contact_marks.resize(scene_.contacts.size())); // within its room
         }
         find_articulations(scene_);
+        find_light_feet(scene_);
         find_closures(scene_);
         find_figures(scene_);
         find_bundles(scene_);

@@ -1,0 +1,17 @@
+// Figures that stand on light feet: bones that joints hold stiffly, and that bear a multiple of their own
+// mass on what does not move.
+//
+// A contact knows its two bodies, and not what stands on them. Each iteration gives a foot of a kilogram what
+// stops a kilogram, and the sixty that stand on it go on: statues shook, and figures that their motors hold
+// upright fell over, whatever their torque. So the contacts of such feet are solved with the trees, as one of
+// the rows that push one way only (rigid/closures.h), and what motors turn as part of the trees.
+#pragma once
+
+#include "rigid/rigid_scene.h"
+
+namespace lks {
+
+// Into scene.foot_contacts. Once contacts and trees are found.
+void find_light_feet(RigidScene& scene);
+
+} // namespace lks

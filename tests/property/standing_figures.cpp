@@ -1,0 +1,215 @@
+// Figures that stand by their own strength.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/bodies.h"
+#include "support/builders.h"
+#include "support/sanitised.h"
+
+using namespace support;
+
+namespace {
+
+// With its muscles at the rest pose.
+struct Figure {
+    Figure(World& in, bool spider) : world(in), count(spider ? LKS_SPIDER_BONES : LKS_HUMANOID_BONES) {
+        REQUIRE((spider ? lks_spider(bones, shapes) : lks_humanoid(bones, shapes)) == LKS_OK);
+        def.bone_count = count;
+        def.bones = bones;
+    }
+    Figure(const Figure&) = delete;
+    Figure& operator=(const Figure&) = delete;
+
+    void add(double strength, double response) {
+        bodies.resize(count);
+        joints.resize(count - 1);
+        REQUIRE(lks_world_add_ragdoll(world, &def, bodies.data(), joints.data()) == LKS_OK);
+        pose.resize(count);
+        REQUIRE(lks_ragdoll_pose(world, bodies.data(), count, pose.data()) == LKS_OK);
+        drive(strength, response);
+    }
+    void drive(double strength, double response) {
+        REQUIRE(lks_ragdoll_drive(world, &def, joints.data(), pose.data(), fixed(strength),
+                                  fixed(response)) == LKS_OK);
+    }
+    // The most that a joint is turned from its rest: degrees.
+    double bent() const {
+        double most = 0;
+        for (const lks_joint_id joint : joints) {
+            lks_fixed swing = 0, twist = 0;
+            REQUIRE(lks_joint_angles(world, joint, &swing, &twist) == LKS_OK);
+            most = std::max({most, std::abs(metres(swing)), std::abs(metres(twist))});
+        }
+        return most;
+    }
+    // The bone's joint to its parent, by five degrees.
+    bool is_within_limits(std::uint32_t bone) const {
+        lks_fixed swing = 0, twist = 0;
+        REQUIRE(lks_joint_angles(world, joints[bone - 1], &swing, &twist) == LKS_OK);
+        const lks_bone& b = bones[bone];
+        return metres(swing) < metres(b.swing_limit) - 5 && metres(twist) > metres(b.twist_min) + 5 &&
+               metres(twist) < metres(b.twist_max) - 5;
+    }
+    double apart() const {
+        double most = 0;
+        for (const lks_joint_id joint : joints) {
+            most = std::max(most, error_of(world, joint));
+        }
+        return most;
+    }
+    double height() const { return state_of(world, bodies[0]).position.y; }
+
+    World& world;
+    std::uint32_t count;
+    lks_bone bones[LKS_SPIDER_BONES]{};
+    lks_body_shape shapes[LKS_SPIDER_BONES]{};
+    lks_ragdoll_def def = lks_default_ragdoll_def();
+    std::vector<lks_body_id> bodies;
+    std::vector<lks_joint_id> joints;
+    std::vector<lks_transform> pose;
+};
+
+} // namespace
+
+// Before, whatever their strength, humanoids fell over at 4 and 8 substeps, and the spider sank by 3 cm at 8
+// and to the ground at 4.
+TEST_CASE("figures stand as their muscles hold them, and fall asleep") {
+    for (const bool spider : {false, true}) {
+        for (const double strength : {1., 5., 100.}) {
+            for (const double response : {0., 0.05}) {
+                for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+                    if (sanitised && (substeps != 8 || strength != 5)) {
+                        continue;
+                    }
+                    World world(world_def(60, substeps));
+                    add_ground(world);
+                    Figure figure(world, spider);
+                    figure.def.transform.position.y = fixed(0.01);
+                    figure.add(strength, response);
+                    world.step(420);
+                    INFO((spider ? "spider" : "human")
+                         << ", strength " << strength << ", response " << response << ", " << substeps
+                         << " substeps: " << figure.height() << " m, bent by " << figure.bent() << "°");
+                    CHECK(lks_world_awake_body_count(world) == 0);
+                    CHECK(std::abs(figure.height() - (spider ? 0.22 : 0.99)) < 2e-4);
+                    CHECK(figure.bent() < 0.05);
+                    CHECK(figure.apart() < 1e-5);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("no muscle turns with more than it has") {
+    for (const double strength : {0.02, 0.05, 0.1, 0.5}) {
+        for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+            World world(world_def(60, substeps));
+            add_ground(world);
+            Figure figure(world, true);
+            figure.def.transform.position.y = fixed(0.02);
+            figure.add(strength, 0.05);
+            double most = 0;
+            for (int tick = 0; tick < 180; ++tick) {
+                world.step();
+                for (std::uint32_t i = 1; i < figure.count; ++i) {
+                    if (figure.is_within_limits(i)) { // these turn beside it
+                        lks_vec3 torque{};
+                        REQUIRE(lks_joint_load(world, figure.joints[i - 1], nullptr, &torque) == LKS_OK);
+                        most =
+                            std::max(most, std::hypot(metres(torque.x), metres(torque.y), metres(torque.z)) /
+                                               (strength * metres(figure.bones[i].motor_torque)));
+                    }
+                }
+            }
+            INFO("strength " << strength << ", " << substeps << " substeps: " << most << " of it");
+            CHECK(most < 1.001);
+            CHECK(most > 0.3);
+        }
+    }
+}
+
+TEST_CASE("figures that are too weak sink down") {
+    for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+        World world(world_def(60, substeps));
+        add_ground(world);
+        Figure figure(world, true);
+        figure.add(0.02, 0.05);
+        world.step(300);
+        CHECK(figure.height() < 0.12);
+    }
+}
+
+TEST_CASE("a figure that stands goes limp, and stretches again where it lies") {
+    World world(world_def(60, 8));
+    add_ground(world);
+    Figure figure(world, false);
+    figure.add(1, 0.05);
+    world.step(60);
+    CHECK(figure.height() > 0.98);
+    figure.drive(0, 0.05);
+    const lks_vec3 at_chest = lks_vec3(fixed(0, 1.4, 0));
+    REQUIRE(lks_body_apply_impulse(world, figure.bodies[LKS_HUMANOID_CHEST], fixed(0, 0, -20), at_chest) ==
+            LKS_OK);
+    world.step(240);
+    CHECK(figure.height() < 0.4);
+    CHECK(figure.bent() > 10);
+    figure.drive(1, 0.3);
+    world.step(300);
+    CHECK(figure.bent() < 5);
+}
+
+// Nothing of it throws limbs about: they move at most a little faster than they fall.
+TEST_CASE("figures of any strength come down in any way") {
+    for (std::uint64_t seed = 1; seed <= (sanitised ? 4 : 40); ++seed) {
+        for (const bool spider : {false, true}) {
+            for (const std::uint32_t substeps : {4u, 8u}) {
+                Random random(seed);
+                const auto any = [&random](double most) {
+                    return most * 1e-6 * static_cast<double>(random.between(-1000000, 1000000));
+                };
+                World world(world_def(60, substeps));
+                add_ground(world);
+                Figure figure(world, spider);
+                figure.def.transform.position.y = fixed(0.3 + std::abs(any(1)));
+                figure.def.transform.rotation = about(any(1), any(1), any(1), any(60));
+                figure.def.velocity = fixed(any(4), any(3), any(4));
+                figure.add(std::pow(10, any(1.5)), seed % 2 == 0 ? 0 : 0.05);
+                double fastest = 0, apart = 0;
+                for (int tick = 0; tick < 300; ++tick) {
+                    world.step();
+                    for (const lks_body_id body : figure.bodies) {
+                        const auto v = state_of(world, body).velocity;
+                        fastest = std::max(fastest, std::hypot(v.x, v.y, v.z));
+                    }
+                    apart = std::max(apart, figure.apart());
+                }
+                INFO((spider ? "spider " : "human ") << seed << ", " << substeps << " substeps");
+                CHECK(fastest < 20);
+                CHECK(apart < 5e-3);
+            }
+        }
+    }
+}
+
+TEST_CASE("figures that stand go on as they were saved") {
+    for (const bool spider : {false, true}) {
+        World world(world_def(60, 8));
+        add_ground(world);
+        Figure figure(world, spider);
+        figure.def.transform.position.y = fixed(0.05);
+        figure.add(0.5, 0.05);
+        world.step(8);
+        const Image image = world.save();
+        world.step(200);
+        World other(world_def(60, 8));
+        add_ground(other);
+        Figure same(other, spider);
+        same.add(0.5, 0.05);
+        REQUIRE(lks_world_load(other, image.data(), image.size()) == LKS_OK);
+        other.step(200);
+        CHECK(other.hash() == world.hash());
+    }
+}
