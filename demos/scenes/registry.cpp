@@ -62,6 +62,12 @@ const std::vector<Entry>& entries() {
          make_ragdoll_hang},
         {{"ragdoll_cape", "A powered mannequin walks in a circle and wears a cape", 480, 180, {60, 170}},
          make_ragdoll_cape},
+        {{"sentry",
+          "A powered mannequin stands, salutes and bows, and its strength leaves it",
+          420,
+          330,
+          {100, 300}},
+         make_sentry},
         {{"spider", "A powered spider walks over rubble, and its strength leaves it", 480, 180, {60, 170}},
          make_spider},
     };

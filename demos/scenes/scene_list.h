@@ -23,6 +23,7 @@ std::unique_ptr<Scene> make_ragdoll_stairs(const SceneInfo& info);
 std::unique_ptr<Scene> make_ragdoll_pile(const SceneInfo& info);
 std::unique_ptr<Scene> make_ragdoll_hang(const SceneInfo& info);
 std::unique_ptr<Scene> make_ragdoll_cape(const SceneInfo& info);
+std::unique_ptr<Scene> make_sentry(const SceneInfo& info);
 std::unique_ptr<Scene> make_spider(const SceneInfo& info);
 
 } // namespace lks_demo
