@@ -138,7 +138,7 @@ void ClosureTree::add_own_motion(std::uint32_t body, const Wrench& push) {
 }
 
 void ClosureTree::solve(bool in_substep) {
-    for_each_body([this](const Body& body, ArticulatedBody& part) {
+    for_each_body([](const Body& body, ArticulatedBody& part) {
         part.force = part.torque = {0, 0, 0};
         part.shift = rounded_share<fine_fraction_bits>(part.fine_share, part.carried_force);
         part.turn = own_turn<fine_fraction_bits>(body, part.fine_share, part.carried_torque);
