@@ -49,7 +49,11 @@ std::vector<Measurement> measure_in_turns(const std::vector<Contender>& contende
 }
 
 Ratio ratio_of(const Measurement& one, const Measurement& other) {
-    const std::vector<double> ratios = ratios_of(one.times, other.times);
+    return ratio_of(one.times, other.times);
+}
+
+Ratio ratio_of(const std::vector<double>& one, const std::vector<double>& other) {
+    const std::vector<double> ratios = ratios_of(one, other);
     return {quartile(ratios, 1), median(ratios), quartile(ratios, 3)};
 }
 

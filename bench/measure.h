@@ -33,5 +33,6 @@ struct Ratio {
 std::vector<Measurement> measure_in_turns(const std::vector<Contender>& contenders, int rounds);
 // How many times as long the one took as the other, both of them measured in turns.
 Ratio ratio_of(const Measurement& one, const Measurement& other);
+Ratio ratio_of(const std::vector<double>& one, const std::vector<double>& other); // their times
 
 } // namespace lks_bench

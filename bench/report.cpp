@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "measure.h"
 #include "plots.h"
 #include "report_files.h"
 #include "workloads.h"
@@ -107,17 +108,18 @@ bool is_peer(const Result& r) {
     return r.variant.rfind("float32", 0) == 0 || r.variant.rfind("Bullet", 0) == 0;
 }
 
-// Peers against each of ours, in what is measured of all of them in turns.
+// Peers against each of ours, in what is measured of all of them in turns: within rounds.
 std::string ratios(const Results& results, const std::string& measured, const std::string& title) {
     Results found;
     for (const Result& r : results) {
-        if (r.measured != measured || r.ratio == 0 || is_peer(r)) {
+        if (r.measured != measured || r.times.empty() || is_peer(r)) {
             continue;
         }
         for (const Result& peer : results) {
-            if (peer.measured == measured && peer.ratio != 0 && peer.workload == r.workload &&
-                is_peer(peer)) {
-                found.push_back({r.workload + ", " + r.variant, "", peer.variant, peer.ratio / r.ratio, ""});
+            if (peer.measured == measured && peer.times.size() == r.times.size() &&
+                peer.workload == r.workload && is_peer(peer)) {
+                found.push_back({r.workload + ", " + r.variant, "", peer.variant,
+                                 ratio_of(peer.times, r.times).median, ""});
             }
         }
     }

@@ -18,6 +18,7 @@ struct Result {
     double best = 0;
     double low = 0; // where the value is a median of ratios within rounds, their quartiles; 0: none
     double high = 0;
+    std::vector<double> times{}; // a round each, of what is measured in turns with others: nanoseconds a unit
 };
 
 using Results = std::vector<Result>;

@@ -31,8 +31,8 @@ void measure_threads(const Workload& workload, double units, int rounds, Results
         const std::unique_ptr<Variant> two = make_variant(workload, two_workers);
         for (const Measurement& m :
              measure_in_turns({ticks(*one, one_worker), ticks(*two, two_workers)}, rounds)) {
-            results.push_back(
-                {workload.name, "threads", m.name, m.nanoseconds, "ns a projection", m.ratio, m.least});
+            results.push_back({workload.name, "threads", m.name, m.nanoseconds, "ns a projection", m.ratio,
+                               m.least, 0, 0, m.times});
         }
     }
 }
@@ -56,11 +56,12 @@ void measure_workload(const Workload& workload, int rounds, bool thrifty, Result
         ticks.push_back({name, [variant] { variant->tick(); }, units});
     }
     for (const Measurement& m : measure_in_turns(projections, rounds)) {
-        results.push_back({workload.name, "projection", m.name, m.nanoseconds, "ns", m.ratio, m.least});
+        results.push_back(
+            {workload.name, "projection", m.name, m.nanoseconds, "ns", m.ratio, m.least, 0, 0, m.times});
     }
     for (const Measurement& m : measure_in_turns(ticks, rounds)) {
-        results.push_back(
-            {workload.name, "tick", m.name, m.nanoseconds, "ns a projection", m.ratio, m.least});
+        results.push_back({workload.name, "tick", m.name, m.nanoseconds, "ns a projection", m.ratio, m.least,
+                           0, 0, m.times});
         results.push_back(
             {workload.name, "tick", m.name, m.nanoseconds * units * 1e-6, "ms", 0, m.least * units * 1e-6});
     }
