@@ -9,6 +9,23 @@ bool is_small(std::uint32_t bone) {
     return bone == LKS_HUMANOID_HEAD || bone == LKS_HUMANOID_HAND_LEFT || bone == LKS_HUMANOID_HAND_RIGHT;
 }
 
+// As all peers have them: cones around the rest pose, and twists to both sides alike.
+void limit_around_rest(lks_bone& bone, std::uint32_t index) {
+    struct Limits {
+        lks_fixed swing, twist;
+    };
+    constexpr Limits chest = {30, 30}, head = {40, 60}, arm = {95, 60}, hand = {60, 20}, thigh = {75, 35},
+                     foot = {30, 15}, none = {0, 0};
+    constexpr Limits all[LKS_HUMANOID_BONES] = {none, chest, head, arm,  none,  hand, arm, none,
+                                                hand, thigh, none, foot, thigh, none, foot};
+    if (bone.joint_kind == LKS_JOINT_BALL && all[index].swing != 0) {
+        bone.joint_rest = {0, 0, 0, LKS_ROTATION_ONE};
+        bone.swing_limit = all[index].swing * LKS_FIXED_ONE;
+        bone.twist_max = all[index].twist * LKS_FIXED_ONE;
+        bone.twist_min = -bone.twist_max;
+    }
+}
+
 } // namespace
 
 double degrees_beyond(const lks_bone& bone, double swing, double twist) {
@@ -35,6 +52,7 @@ Crowd::Crowd(bool with_head_and_hands) {
         bone.body.shapes = &shapes[bone_count];
         bone.body.never_sleeps = 1;
         bone.friction = 0;
+        limit_around_rest(bone, i);
         if (bone.parent != LKS_NO_PARENT) {
             bone.parent = renamed[bone.parent];
         }

@@ -15,7 +15,7 @@ constexpr std::uint32_t segments = 12;
 constexpr std::int64_t rope_length = 1200;
 constexpr std::int64_t hand_height = lift + shoulder_y;
 constexpr std::int64_t beam_height = hand_height + rope_length;
-constexpr std::int64_t hook_bears = 2500; // N: three times its weight
+constexpr std::int64_t hook_bears = 3500; // N: four and a half times its weight
 
 class RagdollHang final : public Scene {
 public:
@@ -44,7 +44,9 @@ private:
     bool add_mannequin() {
         Mannequin mannequin;
         for (const std::uint32_t upper : {LKS_HUMANOID_UPPER_ARM_LEFT, LKS_HUMANOID_UPPER_ARM_RIGHT}) {
-            mannequin.bones[upper].swing_limit = LKS_FIXED(170); // reaches overhead
+            mannequin.bones[upper].swing_limit = LKS_FIXED(170); // looser than a human's
+            mannequin.bones[upper].twist_min = -LKS_FIXED(180);
+            mannequin.bones[upper].twist_max = LKS_FIXED(180);
         }
         const MannequinLook look = mannequin_look(rgb(0xcf9a3e), rgb(0x33497f));
         lks_ragdoll_def def = lks_default_ragdoll_def();
@@ -140,7 +142,7 @@ private:
         lks_transform pelvis{};
         return accept(lks_body_transform(world(), bodies_[LKS_HUMANOID_PELVIS], &pelvis)) &&
                accept(lks_body_apply_impulse(world(), bodies_[LKS_HUMANOID_PELVIS],
-                                             millimetres(0, -200000, 0), pelvis.position));
+                                             millimetres(0, -320000, 0), pelvis.position));
     }
 
     lks_body_id bodies_[LKS_HUMANOID_BONES];

@@ -35,13 +35,21 @@ struct Figure {
         REQUIRE(lks_ragdoll_drive(world, &def, joints.data(), pose.data(), fixed(strength),
                                   fixed(response)) == LKS_OK);
     }
-    // The most that a joint is turned from its rest: degrees.
+    // The most that an axis of a bone is turned in its parent from where the pose has it: degrees.
     double bent() const {
+        const auto in_parent = [](const lks_rotation& parent, const lks_rotation& bone, const Vector& axis) {
+            return rotate(conjugate(parent), rotate(bone, axis));
+        };
         double most = 0;
-        for (const lks_joint_id joint : joints) {
-            lks_fixed swing = 0, twist = 0;
-            REQUIRE(lks_joint_angles(world, joint, &swing, &twist) == LKS_OK);
-            most = std::max({most, std::abs(metres(swing)), std::abs(metres(twist))});
+        for (std::uint32_t i = 1; i < count; ++i) {
+            const std::uint32_t parent = bones[i].parent;
+            for (const Vector& axis : {Vector{1, 0, 0}, Vector{0, 1, 0}}) {
+                const Vector now = in_parent(state_of(world, bodies[parent]).rotation,
+                                             state_of(world, bodies[i]).rotation, axis);
+                const Vector meant = in_parent(pose[parent].rotation, pose[i].rotation, axis);
+                const double apart = std::hypot(now.x - meant.x, now.y - meant.y, now.z - meant.z);
+                most = std::max(most, 2 * std::asin(apart / 2) * 180 / std::acos(-1.0));
+            }
         }
         return most;
     }

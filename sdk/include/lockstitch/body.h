@@ -45,7 +45,7 @@ typedef struct lks_body_shape {
 typedef struct lks_body_def {
     uint32_t struct_size;      /* set by lks_default_body_def */
     uint32_t kind;             /* an lks_body_kind; of a kinematic body velocities are ignored */
-    lks_transform transform;   /* of the body's frame; position within ±8,388,000 m */
+    lks_transform transform;   /* of the body's frame; its centre of mass within ±8,388,000 m */
     lks_vec3 velocity;         /* of the centre of mass, m/s, each axis within the speed limit */
     lks_vec3 angular_velocity; /* rad/s in world axes, each axis within the spin limit */
     const lks_body_shape* shapes;

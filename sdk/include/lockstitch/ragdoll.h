@@ -25,6 +25,10 @@ typedef struct lks_bone {
     lks_body_def body;
     lks_transform joint_frame; /* in the ragdoll's frame, in the rest pose, position within ±30 m; its axis is
                                   local y */
+    /* How the frame in the bone is turned in that of its parent in the rest pose: limits are around where
+     * both are turned alike, which need not be there. A hip that reaches 110 degrees forwards and 10 back
+     * rests 50 degrees behind the middle of its cone. */
+    lks_rotation joint_rest;
     /* Of the joint, with the units and ranges of lks_joint_def, whatever the scale. */
     lks_fixed swing_limit;   /* degrees; 180: none */
     lks_fixed swing_limit_z; /* degrees; negative: as swing_limit */
@@ -56,8 +60,8 @@ typedef struct lks_ragdoll_def {
     uint32_t reserved; /* 0 */
 } lks_ragdoll_def;
 
-/* A root without shapes at the origin, lks_default_body_def for its body, no limits, friction or muscles,
- * rigid, unbreakable. */
+/* A root without shapes at the origin, lks_default_body_def for its body, a joint that rests where its frames
+ * are turned alike, no limits, friction or muscles, rigid, unbreakable. */
 LKS_API lks_bone lks_default_bone(void);
 /* No bones yet, at the origin, at rest, scale 1, group 0. */
 LKS_API lks_ragdoll_def lks_default_ragdoll_def(void);

@@ -72,6 +72,11 @@ lks_transform relative(const lks_transform& body, const lks_transform& world) {
     return {from_vec3(p), {r.x, r.y, r.z, r.w}};
 }
 
+lks_transform turned(const lks_transform& frame, const lks_rotation& rotation) {
+    const fixed::Rotation r = fixed::multiply(to_rotation(frame.rotation), to_rotation(rotation));
+    return {frame.position, {r.x, r.y, r.z, r.w}};
+}
+
 // What a joint of a scaled figure bears: never nothing, which would be everything.
 lks_fixed scaled_strength(lks_fixed strength, lks_fixed scale, int power) {
     if (strength == 0) {
@@ -86,7 +91,7 @@ lks_joint_def make_joint_def(const lks_ragdoll_def& def, const lks_bone& bone, c
     joint.kind = bone.joint_kind;
     const lks_transform frame = placement.place(bone.joint_frame);
     joint.frame_a = relative(placement.place(def.bones[bone.parent].body.transform), frame);
-    joint.frame_b = relative(placement.place(bone.body.transform), frame);
+    joint.frame_b = relative(placement.place(bone.body.transform), turned(frame, bone.joint_rest));
     joint.swing_limit = bone.swing_limit;
     joint.swing_limit_z = bone.swing_limit_z;
     joint.twist_min = bone.twist_min;
@@ -122,7 +127,8 @@ lks_result check_bone(const lks_world& world, const lks_ragdoll_def& def, std::u
                                      << " or its joint lies more than 30 m from the ragdoll.");
     }
     const WithinBone within_bone(world, index);
-    for (const lks_rotation& rotation : {bone.joint_frame.rotation, bone.body.transform.rotation}) {
+    for (const lks_rotation& rotation :
+         {bone.joint_frame.rotation, bone.joint_rest, bone.body.transform.rotation}) {
         if (const lks_result result = check_rotation(world, rotation); result != LKS_OK) {
             return result;
         }
@@ -188,6 +194,7 @@ lks_bone lks_default_bone(void) {
     bone.parent = LKS_NO_PARENT;
     bone.body = lks_default_body_def();
     bone.joint_frame.rotation.w = LKS_ROTATION_ONE;
+    bone.joint_rest.w = LKS_ROTATION_ONE;
     bone.swing_limit = LKS_FIXED(180);
     bone.swing_limit_z = -1;
     bone.twist_min = -LKS_FIXED(180);
