@@ -51,6 +51,34 @@ public:
         }
     }
 
+    // By more than a tenth of what rows that don't push are let be.
+    bool is_apart() {
+        bool apart = false;
+        for_each_tree([&apart](const ClosureTree& tree) { apart = apart || tree.is_apart(); });
+        if (apart) {
+            return true;
+        }
+        static_cast<void>(rows_.measure(unknowns_));
+        return std::any_of(unknowns_, unknowns_ + rows_.count(), [](const ClosureUnknown& row) {
+            const std::int64_t left =
+                row.side == 0 ? row.left : std::max<std::int64_t>(-row.side * row.left, 0);
+            return left > row.slack / 10 || left < -row.slack / 10;
+        });
+    }
+
+    // What is undone strains none. True: the trees' factors have them.
+    bool hold_springs() {
+        rows_.hold_springs();
+        bool any = false;
+        for_each_part(scene_, figure_, Part::tree,
+                      [&](std::uint32_t i) { any = any || scene_.trees[i].has_springs; });
+        return any;
+    }
+
+    void make_units() {
+        for_each_tree([](ClosureTree tree) { tree.make_units(); });
+    }
+
 private:
     // False: motors are not capable of it.
     bool solve_once() { return solve_trees() && solve_rows(); }
@@ -99,36 +127,6 @@ private:
         return true;
     }
 
-public:
-    // By more than a tenth of what rows that don't push are let be.
-    bool is_apart() {
-        bool apart = false;
-        for_each_tree([&apart](const ClosureTree& tree) { apart = apart || tree.is_apart(); });
-        if (apart) {
-            return true;
-        }
-        static_cast<void>(rows_.measure(unknowns_));
-        return std::any_of(unknowns_, unknowns_ + rows_.count(), [](const ClosureUnknown& row) {
-            const std::int64_t left =
-                row.side == 0 ? row.left : std::max<std::int64_t>(-row.side * row.left, 0);
-            return left > row.slack / 10 || left < -row.slack / 10;
-        });
-    }
-
-    // What is undone strains none. True: the trees' factors have them.
-    bool hold_springs() {
-        rows_.hold_springs();
-        bool any = false;
-        for_each_part(scene_, figure_, Part::tree,
-                      [&](std::uint32_t i) { any = any || scene_.trees[i].has_springs; });
-        return any;
-    }
-
-    void make_units() {
-        for_each_tree([](ClosureTree tree) { tree.make_units(); });
-    }
-
-private:
     template <typename Use>
     void for_each_tree(const Use& use) {
         for_each_part(scene_, figure_, Part::tree, [&](std::uint32_t i) {
