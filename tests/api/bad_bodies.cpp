@@ -116,6 +116,10 @@ TEST_CASE("calls on bodies that are gone or of the wrong kind are refused") {
                   hash);
     check_refused(world, lks_body_apply_impulse(world, body, {}, fixed(70, 0, 0)), LKS_ERROR_INVALID_ARGUMENT,
                   "70", hash);
+    check_refused(world, lks_body_apply_angular_impulse(world, gone, {}), LKS_ERROR_STALE_ID, "index 1",
+                  hash);
+    check_refused(world, lks_body_apply_angular_impulse(world, body, {0, INT64_MIN, 0}),
+                  LKS_ERROR_INVALID_ARGUMENT, "-8388608", hash);
     lks_transform far = here;
     far.position.x = fixed(500);
     check_refused(world, lks_body_move_to(world, anchor, far), LKS_ERROR_INVALID_ARGUMENT, "498", hash);

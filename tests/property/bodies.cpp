@@ -348,6 +348,40 @@ TEST_CASE("an impulse changes velocity and spin by what it carries") {
     CHECK(std::abs(state.spin.x) < 1e-9);
 }
 
+TEST_CASE("an angular impulse turns, and moves nothing") {
+    World world;
+    REQUIRE(lks_world_set_gravity(world, {}) == LKS_OK);
+    lks_body_def def = lks_default_body_def();
+    def.transform.rotation = about(0, 0, 1, 90); // its own x is the world's y
+    const lks_body_id body = add_body(world, box_shape(0.5, 0.1, 0.3), fixed(1, 2, 3), def);
+    const double mass = 120;
+    REQUIRE(lks_body_apply_angular_impulse(world, body, fixed(6, -3, 9)) == LKS_OK);
+    const BodyState state = state_of(world, body);
+    CHECK(std::abs(state.spin.x - 6 / (mass * (0.25 + 0.09) / 3)) < 1e-5);
+    CHECK(std::abs(state.spin.y + 3 / (mass * (0.01 + 0.09) / 3)) < 1e-5);
+    CHECK(std::abs(state.spin.z - 9 / (mass * (0.25 + 0.01) / 3)) < 1e-5);
+    CHECK(std::abs(state.velocity.x) + std::abs(state.velocity.y) + std::abs(state.velocity.z) == 0);
+    REQUIRE(lks_body_apply_angular_impulse(world, body, fixed(-6, 3, -9)) == LKS_OK);
+    const BodyState still = state_of(world, body);
+    CHECK(std::abs(still.spin.x) + std::abs(still.spin.y) + std::abs(still.spin.z) < 1e-8);
+    // As an impulse at a lever does, but for the way.
+    const lks_body_id other = add_body(world, box_shape(0.5, 0.1, 0.3), fixed(1, 2, 9), def);
+    REQUIRE(lks_body_apply_impulse(world, other, fixed(0, 0, -10), fixed(1, 2.25, 9)) == LKS_OK);
+    REQUIRE(lks_body_apply_angular_impulse(world, body, fixed(-2.5, 0, 0)) == LKS_OK);
+    CHECK(std::abs(state_of(world, other).spin.x - state_of(world, body).spin.x) < 1e-8);
+    // It wakes, and a kinematic body takes none.
+    world.step(300);
+    const lks_body_id anchor = add_anchor(world, fixed(5, 0, 0));
+    REQUIRE(lks_body_apply_angular_impulse(world, anchor, fixed(100, 0, 0)) == LKS_OK);
+    CHECK(state_of(world, anchor).spin.x == 0);
+    // Beyond the limit it is clamped, and counted.
+    REQUIRE(lks_body_apply_angular_impulse(world, body, fixed(0, 8388607, 0)) == LKS_OK);
+    CHECK(state_of(world, body).spin.y == metres(lks_world_spin_limit(world)));
+    lks_world_counters counters{};
+    REQUIRE(lks_world_get_counters(world, &counters) == LKS_OK);
+    CHECK(counters.speed_clamps == 1);
+}
+
 TEST_CASE("a kinematic body carries what lies on it") {
     World world(world_def(60, 8));
     lks_body_def def = lks_default_body_def();

@@ -69,6 +69,9 @@ LKS_API lks_result lks_world_remove_attachment(lks_world* world, lks_attachment_
 LKS_API uint32_t lks_world_has_attachment(const lks_world* world, lks_attachment_id attachment);
 /* How many there are; 0 for null. */
 LKS_API uint32_t lks_world_attachment_count(const lks_world* world);
+/* The n-th attachment in index order, 0 ≤ n < attachment count, else LKS_ERROR_INVALID_ARGUMENT. Looks at all
+ * up to it. */
+LKS_API lks_result lks_world_attachment_at(const lks_world* world, uint32_t n, lks_attachment_id* attachment);
 
 /* How far the two sides are apart, metres. Saturates at 8,388,608. */
 LKS_API lks_result lks_attachment_error(const lks_world* world, lks_attachment_id attachment,

@@ -76,6 +76,9 @@ LKS_API lks_result lks_world_remove_body(lks_world* world, lks_body_id body);
 LKS_API uint32_t lks_world_has_body(const lks_world* world, lks_body_id body);
 /* How many there are; 0 for null. */
 LKS_API uint32_t lks_world_body_count(const lks_world* world);
+/* The n-th body in index order, 0 ≤ n < body count, else LKS_ERROR_INVALID_ARGUMENT. Looks at all up to it.
+ */
+LKS_API lks_result lks_world_body_at(const lks_world* world, uint32_t n, lks_body_id* body);
 
 /* The speed limit of each axis of an angular velocity in rad/s: the lower of 1000 and one a substep. */
 LKS_API lks_fixed lks_world_spin_limit(const lks_world* world);
@@ -97,6 +100,8 @@ LKS_API lks_result lks_body_set_velocity(lks_world* world, lks_body_id body, lks
  * clamped. */
 LKS_API lks_result lks_body_apply_impulse(lks_world* world, lks_body_id body, lks_vec3 impulse,
                                           lks_vec3 point);
+/* N·m·s in world axes, each within ±8,388,607: turns it and moves it not. Everything else as above. */
+LKS_API lks_result lks_body_apply_angular_impulse(lks_world* world, lks_body_id body, lks_vec3 impulse);
 /* Where a kinematic body is to be at the end of the next tick; it gets there evenly over the substeps (a turn
  * of 90° within 10 %, of 10° within 0.1 %) and rests there until the next call. At most 100 m and 90° a
  * tick. LKS_ERROR_UNSUPPORTED for a dynamic body. */

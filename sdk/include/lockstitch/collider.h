@@ -60,6 +60,11 @@ LKS_API lks_result lks_world_add_collider(lks_world* world, const lks_collider_d
 LKS_API lks_result lks_world_remove_collider(lks_world* world, lks_collider_id collider);
 /* 1 while the collider exists. */
 LKS_API uint32_t lks_world_has_collider(const lks_world* world, lks_collider_id collider);
+/* How many there are; 0 for null. */
+LKS_API uint32_t lks_world_collider_count(const lks_world* world);
+/* The n-th collider in index order, 0 ≤ n < collider count, else LKS_ERROR_INVALID_ARGUMENT. Looks at all up
+ * to it. */
+LKS_API lks_result lks_world_collider_at(const lks_world* world, uint32_t n, lks_collider_id* collider);
 
 /* Kinematic motion: where the collider is to be at the end of the next tick; it gets there evenly over the
  * substeps and then rests there until the next call. It pushes and drags what it touches. At most 100 m and

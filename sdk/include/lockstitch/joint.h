@@ -113,6 +113,12 @@ LKS_API lks_result lks_world_remove_joint(lks_world* world, lks_joint_id joint);
 LKS_API uint32_t lks_world_has_joint(const lks_world* world, lks_joint_id joint);
 /* How many there are; 0 for null. */
 LKS_API uint32_t lks_world_joint_count(const lks_world* world);
+/* The n-th joint in index order, 0 ≤ n < joint count, else LKS_ERROR_INVALID_ARGUMENT. Looks at all up to it.
+ */
+LKS_API lks_result lks_world_joint_at(const lks_world* world, uint32_t n, lks_joint_id* joint);
+/* Which bodies it joins. Either may be null. */
+LKS_API lks_result lks_joint_bodies(const lks_world* world, lks_joint_id joint, lks_body_id* body_a,
+                                    lks_body_id* body_b);
 
 /* How far the two points are from where the joint allows them, metres. Saturates at 8,388,608. */
 LKS_API lks_result lks_joint_error(const lks_world* world, lks_joint_id joint, lks_fixed* error);

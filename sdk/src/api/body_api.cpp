@@ -255,6 +255,22 @@ lks_result lks_body_apply_impulse(lks_world* world, lks_body_id body, lks_vec3 i
     return LKS_OK;
 }
 
+lks_result lks_body_apply_angular_impulse(lks_world* world, lks_body_id body, lks_vec3 impulse) {
+    if (const lks_result result = require_body(world, body); result != LKS_OK) {
+        return result;
+    }
+    if (!within(impulse, LKS_FIXED(8388607))) {
+        return world->fail(LKS_ERROR_INVALID_ARGUMENT,
+                           out_of_range("angular impulse", impulse, "N·m·s", LKS_FIXED(8388607)));
+    }
+    Body& found = world->rigid.bodies[body.index];
+    wake(found);
+    apply_angular_impulse(found, to_vec3(impulse));
+    world->counters.speed_clamps +=
+        clamp_vector(found.angular_velocity, body_spin_limit(world->rate)) ? 1u : 0u;
+    return LKS_OK;
+}
+
 lks_result lks_body_move_to(lks_world* world, lks_body_id body, lks_transform target) {
     if (const lks_result result = require_body(world, body); result != LKS_OK) {
         return result;

@@ -191,6 +191,24 @@ uint32_t lks_world_joint_count(const lks_world* world) {
     return world == nullptr ? 0 : count_used(world->rigid.joint_slots);
 }
 
+lks_result lks_joint_bodies(const lks_world* world, lks_joint_id joint, lks_body_id* body_a,
+                            lks_body_id* body_b) {
+    if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
+        return result;
+    }
+    const JointDescription& d = world->rigid.joints[joint.index].description;
+    const auto id_of = [world](std::uint32_t index) {
+        return lks_body_id{index, world->rigid.body_slots[index].generation};
+    };
+    if (body_a != nullptr) {
+        *body_a = id_of(d.body_a);
+    }
+    if (body_b != nullptr) {
+        *body_b = id_of(d.body_b);
+    }
+    return LKS_OK;
+}
+
 lks_result lks_joint_error(const lks_world* world, lks_joint_id joint, lks_fixed* error) {
     if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
         return result;

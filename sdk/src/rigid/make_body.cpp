@@ -209,9 +209,16 @@ void apply_impulse(Body& body, const Vec3& impulse, const Vec3& lever) {
     const Scaled w = inverse_mass(body);
     body.velocity =
         saturating_add(body.velocity, {times(impulse.x, w), times(impulse.y, w), times(impulse.z, w)});
-    const Vec3 momentum{minor(lever.y, impulse.z, lever.z, impulse.y),
-                        minor(lever.z, impulse.x, lever.x, impulse.z),
-                        minor(lever.x, impulse.y, lever.y, impulse.x)};
+    apply_angular_impulse(body, {minor(lever.y, impulse.z, lever.z, impulse.y),
+                                 minor(lever.z, impulse.x, lever.x, impulse.z),
+                                 minor(lever.x, impulse.y, lever.y, impulse.x)});
+}
+
+void apply_angular_impulse(Body& body, const Vec3& momentum) {
+    if (!body.is_dynamic()) {
+        return;
+    }
+    const Scaled w = inverse_mass(body);
     constexpr std::int64_t limit = (std::int64_t{1} << 62) - 1;
     const Vec3 bounded{std::clamp(momentum.x, -limit, limit), std::clamp(momentum.y, -limit, limit),
                        std::clamp(momentum.z, -limit, limit)};

@@ -30,6 +30,8 @@ fixed::Scaled dynamic_inverse_mass(const BodyDescription& description);
 fixed::Scaled greater_inverse_mass(const PairShares& shares, const Body& a, const Body& b);
 // N·s at a lever from the centre of mass, world axes.
 void apply_impulse(Body& body, const fixed::Vec3& impulse, const fixed::Vec3& lever);
+// N·m·s in world axes.
+void apply_angular_impulse(Body& body, const fixed::Vec3& momentum);
 fixed::Scaled kinetic_energy(const Body& body, const BodyDescription& description);
 
 } // namespace lks
