@@ -339,14 +339,16 @@ private:
                 softness.push_back(row.give * give);
             }
             pushes = solve_held(matrix, errors, 0, rows, softness);
-            clear(figure);
-            for (std::size_t i = 0; i < rows.size(); ++i) {
-                push(figure.rows[i], rows[i].axis, pushes[i]);
-            }
-            tree_pushes = push_trees(figure, std::vector<Scalar>(figure.tree_rows.size()));
+            tree_pushes = push_all(figure, rows, pushes);
             if (!bends_too_far(figure, rows, pushes)) {
                 break;
             }
+        }
+        for (int i = 0; i < 8 && bends_too_far(figure, rows, pushes); ++i) {
+            for (Scalar& push : pushes) {
+                push /= 2;
+            }
+            tree_pushes = push_all(figure, rows, pushes);
         }
         move(figure);
         if (!in_substep) {
@@ -364,6 +366,15 @@ private:
                 keep(row, pushes[i]);
             }
         }
+    }
+    // What its trees push by that.
+    std::vector<Scalar> push_all(Figure& figure, const std::vector<HeldRow<Scalar>>& rows,
+                                 const std::vector<Scalar>& pushes) {
+        clear(figure);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            push(figure.rows[i], rows[i].axis, pushes[i]);
+        }
+        return push_trees(figure, std::vector<Scalar>(figure.tree_rows.size()));
     }
     void solve_trees(Figure& figure, bool in_substep) {
         clear(figure);

@@ -113,7 +113,11 @@ private:
                 return true;
             }
             push();
-            if (softer < softer_shift || !bends_too_far()) {
+            if (!bends_too_far()) {
+                break;
+            }
+            if (softer < softer_shift) {
+                hold_back();
                 break;
             }
         }
@@ -181,6 +185,17 @@ private:
             most = std::max(most, size);
         });
         return most;
+    }
+
+    // To so much of it that it doesn't.
+    void hold_back() {
+        constexpr int most_halvings = 8;
+        for (int i = 0; i < most_halvings && bends_too_far(); ++i) {
+            for (ClosureUnknown& row : unknowns_) {
+                row.more /= 2;
+            }
+            push();
+        }
     }
 
     void move(ClosureTree tree) const {
