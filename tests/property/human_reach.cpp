@@ -16,21 +16,17 @@ namespace {
 double missed_by(std::uint32_t bone, const lks_rotation& turned) {
     World world(world_def(60, 8));
     REQUIRE(lks_world_set_gravity(world, {}) == LKS_OK);
-    lks_bone bones[LKS_HUMANOID_BONES];
-    lks_body_shape shapes[LKS_HUMANOID_BONES];
-    REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
+    Humanoid human;
+    lks_bone(&bones)[LKS_HUMANOID_BONES] = human.bones;
     for (std::uint32_t i = 0; i < LKS_HUMANOID_BONES; ++i) {
         bones[i].body.filter.mask = 0; // limits only
         if (i == bones[bone].parent) {
             bones[i].body.kind = LKS_BODY_KINEMATIC;
         }
     }
-    lks_ragdoll_def def = lks_default_ragdoll_def();
-    def.bones = bones;
-    def.bone_count = LKS_HUMANOID_BONES;
     lks_body_id bodies[LKS_HUMANOID_BONES];
     lks_joint_id joints[LKS_HUMANOID_BONES - 1];
-    REQUIRE(lks_world_add_ragdoll(world, &def, bodies, joints) == LKS_OK);
+    REQUIRE(human.add(world, bodies, joints) == LKS_OK);
     lks_transform pose[LKS_HUMANOID_BONES];
     REQUIRE(lks_ragdoll_pose(world, bodies, LKS_HUMANOID_BONES, pose) == LKS_OK);
     pose[bone].rotation = turned;
@@ -39,7 +35,7 @@ double missed_by(std::uint32_t bone, const lks_rotation& turned) {
             pose[i].rotation = pose[bones[i].parent].rotation;
         }
     }
-    REQUIRE(lks_ragdoll_drive(world, &def, joints, pose, fixed(1), fixed(0.1)) == LKS_OK);
+    REQUIRE(lks_ragdoll_drive(world, &human.def, joints, pose, fixed(1), fixed(0.1)) == LKS_OK);
     world.step(180);
     const Vector down{0, -1, 0};
     const Vector meant = rotate(turned, down);
@@ -100,17 +96,12 @@ TEST_CASE("a human's limbs do not go where nobody's do") {
 
 TEST_CASE("a bone's joint rests where it is told to") {
     World world(world_def(60, 8));
-    lks_bone bones[LKS_HUMANOID_BONES];
-    lks_body_shape shapes[LKS_HUMANOID_BONES];
-    REQUIRE(lks_humanoid(bones, shapes) == LKS_OK);
-    lks_ragdoll_def def = lks_default_ragdoll_def();
-    def.bones = bones;
-    def.bone_count = LKS_HUMANOID_BONES;
-    bones[LKS_HUMANOID_HEAD].joint_rest = about(0, 0, 1, 25);
-    bones[LKS_HUMANOID_UPPER_ARM_LEFT].joint_rest = about(0, 1, 0, -30);
+    Humanoid human;
+    human.bones[LKS_HUMANOID_HEAD].joint_rest = about(0, 0, 1, 25);
+    human.bones[LKS_HUMANOID_UPPER_ARM_LEFT].joint_rest = about(0, 1, 0, -30);
     lks_body_id bodies[LKS_HUMANOID_BONES];
     lks_joint_id joints[LKS_HUMANOID_BONES - 1];
-    REQUIRE(lks_world_add_ragdoll(world, &def, bodies, joints) == LKS_OK);
+    REQUIRE(human.add(world, bodies, joints) == LKS_OK);
     lks_fixed swing = 0, twist = 0;
     REQUIRE(lks_joint_angles(world, joints[LKS_HUMANOID_HEAD - 1], &swing, &twist) == LKS_OK);
     CHECK(std::abs(metres(swing) - 25) < 1e-3);
@@ -118,7 +109,7 @@ TEST_CASE("a bone's joint rests where it is told to") {
     REQUIRE(lks_joint_angles(world, joints[LKS_HUMANOID_UPPER_ARM_LEFT - 1], &swing, &twist) == LKS_OK);
     CHECK(std::abs(metres(swing)) < 1e-3);
     CHECK(std::abs(metres(twist) + 30) < 1e-3);
-    bones[3].joint_rest = {0, 0, 0, 1};
-    CHECK(lks_world_add_ragdoll(world, &def, bodies, joints) == LKS_ERROR_INVALID_ARGUMENT);
+    human.bones[3].joint_rest = {0, 0, 0, 1};
+    CHECK(human.add(world, bodies, joints) == LKS_ERROR_INVALID_ARGUMENT);
     CHECK(std::string(lks_world_last_error(world)->message).find("one 3") != std::string::npos);
 }

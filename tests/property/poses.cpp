@@ -41,13 +41,6 @@ double between(const lks_rotation& a, const lks_rotation& b) {
     return 2 * std::acos(std::min(1.0, std::abs(dot))) * 180 / pi;
 }
 
-lks_rotation product(const lks_rotation& a, const lks_rotation& b) {
-    const auto part = [](double v) { return static_cast<std::int32_t>(std::lround(v / std::pow(2.0, 30))); };
-    const double ax = a.x, ay = a.y, az = a.z, aw = a.w, bx = b.x, by = b.y, bz = b.z, bw = b.w;
-    return {part(aw * bx + ax * bw + ay * bz - az * by), part(aw * by + ay * bw + az * bx - ax * bz),
-            part(aw * bz + az * bw + ax * by - ay * bx), part(aw * bw - ax * bx - ay * by - az * bz)};
-}
-
 } // namespace
 
 TEST_CASE("a pose that was read is the one that was set, and velocities follow from two of them") {

@@ -93,22 +93,6 @@ RigidMotor rigid_motor(const lks_motor& motor) {
     return {support::metres(motor.max_torque), support::metres(motor.response), rotation_of(motor.target)};
 }
 
-namespace {
-
-lks_rotation product(const lks_rotation& a, const lks_rotation& b) {
-    const double p[4] = {1.0 * a.x, 1.0 * a.y, 1.0 * a.z, 1.0 * a.w};
-    const double q[4] = {1.0 * b.x, 1.0 * b.y, 1.0 * b.z, 1.0 * b.w};
-    const auto part = [](double sum) {
-        return static_cast<std::int32_t>(std::lround(sum / LKS_ROTATION_ONE));
-    };
-    return {part(p[3] * q[0] + p[0] * q[3] + p[1] * q[2] - p[2] * q[1]),
-            part(p[3] * q[1] - p[0] * q[2] + p[1] * q[3] + p[2] * q[0]),
-            part(p[3] * q[2] + p[0] * q[1] - p[1] * q[0] + p[2] * q[3]),
-            part(p[3] * q[3] - p[0] * q[0] - p[1] * q[1] - p[2] * q[2])};
-}
-
-} // namespace
-
 lks_joint_def joint_of_bone(const lks_bone* bones, std::uint32_t bone) {
     const lks_bone& child = bones[bone];
     const lks_bone& parent = bones[child.parent];
@@ -120,7 +104,7 @@ lks_joint_def joint_of_bone(const lks_bone* bones, std::uint32_t bone) {
     def.frame_a = def.frame_b = child.joint_frame;
     def.frame_a.position = subtract(child.joint_frame.position, parent.body.transform.position);
     def.frame_b.position = subtract(child.joint_frame.position, child.body.transform.position);
-    def.frame_b.rotation = product(child.joint_frame.rotation, child.joint_rest);
+    def.frame_b.rotation = support::product(child.joint_frame.rotation, child.joint_rest);
     def.swing_limit = child.swing_limit;
     def.swing_limit_z = child.swing_limit_z;
     def.twist_min = child.twist_min;

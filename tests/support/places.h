@@ -8,18 +8,6 @@
 
 namespace support {
 
-// First b, then a.
-inline lks_rotation product(const lks_rotation& a, const lks_rotation& b) {
-    const auto sum = [](std::int64_t p, std::int64_t q, std::int64_t r, std::int64_t s) {
-        return static_cast<std::int32_t>((p + q + r + s) / LKS_ROTATION_ONE);
-    };
-    const auto m = [](std::int64_t p, std::int64_t q) { return p * q; };
-    return {sum(m(a.w, b.x), m(a.x, b.w), m(a.y, b.z), -m(a.z, b.y)),
-            sum(m(a.w, b.y), m(a.y, b.w), m(a.z, b.x), -m(a.x, b.z)),
-            sum(m(a.w, b.z), m(a.z, b.w), m(a.x, b.y), -m(a.y, b.x)),
-            sum(m(a.w, b.w), -m(a.x, b.x), -m(a.y, b.y), -m(a.z, b.z))};
-}
-
 // What is fixed to a frame, after that has jumped.
 inline lks_transform carried(const lks_transform& what, const lks_transform& from, const lks_transform& to) {
     const lks_rotation& q = from.rotation;

@@ -16,11 +16,10 @@ lks_result list(const lks_world* world, const Slots& slots, std::uint32_t n, con
         return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument(function, what));
     }
     std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < slots.size(); ++i) {
-        if (slots[i].used && count++ == n) {
-            *id = {i, slots[i].generation};
-            return LKS_OK;
-        }
+    const std::uint32_t index = find_nth(slots, n, count, [](const auto& slot) { return slot.used; });
+    if (index < slots.size()) {
+        *id = {index, slots[index].generation};
+        return LKS_OK;
     }
     return world->fail(LKS_ERROR_INVALID_ARGUMENT, Sentence() << "There is no " << what << " " << n
                                                               << ": the world has " << count << ".");

@@ -154,16 +154,15 @@ lks_result lks_world_object_at(const lks_world* world, uint32_t n, lks_object_id
     if (object == nullptr) {
         return world->fail(LKS_ERROR_NULL_ARGUMENT, null_argument("lks_world_object_at", "object"));
     }
-    std::uint32_t left = n;
-    for (std::uint32_t i = 0; i < world->objects.size(); ++i) {
-        if (world->objects[i].object != nullptr && left-- == 0) {
-            *object = {i, world->objects[i].generation};
-            return LKS_OK;
-        }
+    std::uint32_t count = 0;
+    const std::uint32_t index =
+        find_nth(world->objects, n, count, [](const auto& slot) { return slot.object != nullptr; });
+    if (index < world->objects.size()) {
+        *object = {index, world->objects[index].generation};
+        return LKS_OK;
     }
-    return world->fail(LKS_ERROR_INVALID_ARGUMENT, Sentence()
-                                                       << "Object " << n << " does not exist: the world has "
-                                                       << lks_world_object_count(world) << ".");
+    return world->fail(LKS_ERROR_INVALID_ARGUMENT,
+                       Sentence() << "Object " << n << " does not exist: the world has " << count << ".");
 }
 
 const lks_asset* lks_object_asset(const lks_world* world, lks_object_id object) {

@@ -299,7 +299,8 @@ private:
     bool mark_held(std::size_t joint, bool held) {
         held = held || has_anchor(joint);
         for (std::size_t i = joint; i < scene_.tree_joints.size(); ++i) {
-            scene_.joints[scene_.tree_joints[i].joint].in_held_tree = held;
+            Joint& at = scene_.joints[scene_.tree_joints[i].joint];
+            at.in_held_tree = at.carries_torque = held;
         }
         return held;
     }

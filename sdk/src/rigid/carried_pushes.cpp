@@ -92,7 +92,7 @@ public:
             Joint& joint = scene_.joints[i];
             Body& a = scene_.bodies[joint.description.body_a];
             Body& b = scene_.bodies[joint.description.body_b];
-            if (joint.in_held_tree) {
+            if (joint.carries_torque) {
                 carry_torque(scene_, joint, add_to_carried_turn(joint, a, b, share));
             } else {
                 carry_more(joint, a, b, share);

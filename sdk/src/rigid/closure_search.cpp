@@ -220,7 +220,7 @@ private:
             ArticulatedJoint& part = scene_.tree_joints[i];
             part.pair_share = tree_detail::pair_share_of(scene_, part);
             scene_.joints[part.joint].turns_in_tree = true;
-            scene_.joints[part.joint].carries_torque = range.stands;
+            scene_.joints[part.joint].carries_torque |= range.stands;
             if (has_limits(scene_.joints[part.joint].constants)) {
                 Closure closure = closure_of(part.joint, Closure::Kind::limits);
                 closure.pair_share = pair_share_of(closure, range);

@@ -4,7 +4,6 @@
 
 #include "rigid/closure_matrix.h"
 #include "rigid/figures.h"
-#include "rigid/joint_drive.h"
 
 namespace lks {
 namespace {
@@ -191,9 +190,7 @@ private:
     void hold_back() {
         constexpr int most_halvings = 8;
         for (int i = 0; i < most_halvings && bends_too_far(); ++i) {
-            for (ClosureUnknown& row : unknowns_) {
-                row.more /= 2;
-            }
+            std::for_each(unknowns_, unknowns_ + rows_.count(), [](ClosureUnknown& row) { row.more /= 2; });
             push();
         }
     }

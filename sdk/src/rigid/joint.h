@@ -148,7 +148,7 @@ struct Joint : JointState {
     bool turns_in_tree;        // what it turns is solved with those points, as its tree has loops
     bool limits_in_tree;       // and so are its limits, in this substep
     bool motor_in_tree;        // and so is its motor, in this substep
-    bool carries_torque;       // what it turned is carried on as a torque, as in a held tree
+    bool carries_torque;       // what it turned is carried on as a torque, with that of its points
     bool in_held_tree;         // and what it turns is, where a tree is held (rigid/held_tree.h)
     fixed::Rotation motor_aim; // the motor's target, or what is next to it within limits (rigid/motor_aim.h)
 

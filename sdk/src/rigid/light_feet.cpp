@@ -2,7 +2,6 @@
 
 #include "memory/sort_numbers.h"
 #include "rigid/joint_drive.h"
-#include "rigid/joint_turns.h"
 
 namespace lks {
 namespace {

@@ -107,7 +107,7 @@ void RigidSubstep::carry_pushes_on() {
         blocks_.for_each_figure(bundle, [this](const FigureRange& figure) {
             blocks_.for_each_joint(figure, [this](Joint& joint, Body& a, Body& b) {
                 prepare_pushes(joint, a, b);
-                if (joint.in_held_tree || joint.carries_torque) {
+                if (joint.carries_torque) {
                     carry_torque(scene_, joint, carried_turn(joint, a, b));
                 } else {
                     lks::carry_pushes_on(joint, a, b);

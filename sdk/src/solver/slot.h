@@ -52,6 +52,18 @@ std::uint32_t count_used(const Slots& slots) {
     return count;
 }
 
+// The index of the n-th that counts, or how many slots there are; and how many that count come before it.
+template <typename Slots, typename Counts>
+std::uint32_t find_nth(const Slots& slots, std::uint32_t n, std::uint32_t& before, const Counts& counts) {
+    before = 0;
+    std::uint32_t index = 0;
+    while (index < slots.size() && (!counts(slots[index]) || before != n)) {
+        before += counts(slots[index]) ? 1u : 0u;
+        ++index;
+    }
+    return index;
+}
+
 // Whether an id is of the slot's present occupant.
 template <typename Slots, typename Id>
 bool names_used(const Slots& slots, const Id& id) {
