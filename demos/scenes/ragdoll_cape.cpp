@@ -1,5 +1,6 @@
 // A mannequin walks in a circle: its pelvis is animated, everything else is turned by its own muscles towards
 // the pose of a walk. On its shoulders hangs a cape.
+#include "scenes/caped_scene.h"
 #include "scenes/mannequin.h"
 #include "scenes/scene_list.h"
 #include "scenes/time_curves.h"
@@ -10,22 +11,20 @@ namespace {
 constexpr std::int64_t radius = 1300;          // of the circle, mm
 constexpr lks_fixed round_time = LKS_FIXED(8); // seconds
 constexpr lks_fixed step_time = LKS_FIXED(1);  // of two steps
-constexpr std::uint32_t cape_columns = 22;
-constexpr std::uint32_t cape_rows = 34;
-constexpr std::int64_t chest_y = 1285;
 constexpr lks_vec3 side_axis = {LKS_FIXED_ONE, 0, 0};
 constexpr lks_vec3 up_axis = {0, LKS_FIXED_ONE, 0};
 
-class RagdollCape final : public Scene {
+class RagdollCape final : public CapedScene {
 public:
-    using Scene::Scene;
+    using CapedScene::CapedScene;
 
 private:
     void configure(lks_world_def& def) override { def.substeps = 20; }
 
     bool build() override {
         camera_ = {{3.4f, 2.1f, 4.2f}, {0.0f, 0.85f, 0.0f}, 36.0f, {0.4f, 0.8f, 0.5f}};
-        return add_ground(rgb(0xa19e99)) && add_mannequin() && add_cape();
+        return add_ground(rgb(0xa19e99)) && add_mannequin() &&
+               add_cape(bodies_[LKS_HUMANOID_CHEST], millimetres(radius, 0, 0), rgb(0x9c2530), rgb(0x7d1d28));
     }
 
     bool add_mannequin() {
@@ -37,46 +36,6 @@ private:
         def_.group = -1;
         const MannequinLook look = mannequin_look(rgb(0x3c4a63), rgb(0x5c5148));
         return add_ragdoll("mannequin", def_, look.bones, bodies_, joints_);
-    }
-
-    // Hangs from the shoulders down the back; its upper edge is held along a line behind them.
-    bool add_cape() {
-        lks_cloth_def def = lks_default_cloth_def();
-        def.columns = cape_columns;
-        def.rows = cape_rows;
-        def.width = 0.525;
-        def.height = 0.9625;
-        def.area_density = 0.25;
-        def.shear.compliance = 1e-6;
-        def.bend.compliance = 1e-3;
-        def.particle_radius = 0.012;
-        const lks_asset* asset = nullptr;
-        lks_object_def object = lks_default_object_def();
-        object.transform.position = millimetres(radius, cape_top - 481, -145);
-        object.linear_damping = LKS_FIXED_RATIO(1, 2);
-        ClothLook look;
-        look.front = {Pattern::plain, rgb(0x9c2530), rgb(0x9c2530), rgb(0xcf9a3e), 0.2f};
-        look.back = {Pattern::plain, rgb(0x7d1d28), rgb(0x7d1d28), rgb(0xcf9a3e), 0.2f};
-        look.thickness = 0.006f;
-        if (!create_cloth(def, asset) || !add_object("cape", asset, object)) {
-            return false;
-        }
-        look_as_grid(def, look);
-        for (std::uint32_t column = 0; column < cape_columns; ++column) {
-            lks_attachment_def hold = lks_default_attachment_def();
-            hold.object = last_object();
-            hold.vertex = column;
-            hold.body = bodies_[LKS_HUMANOID_CHEST];
-            // Drawn together to the width of the shoulders.
-            const std::int64_t across =
-                (2 * static_cast<std::int64_t>(column) - (cape_columns - 1)) * 205 / (cape_columns - 1);
-            hold.point = millimetres(across, cape_top - chest_y, -125);
-            lks_attachment_id id{};
-            if (!accept(lks_world_add_attachment(world(), &hold, &id))) {
-                return false;
-            }
-        }
-        return true;
     }
 
     static void turn(lks_transform& bone, lks_fixed turns) {
@@ -130,8 +89,6 @@ private:
                accept(
                    lks_ragdoll_drive(world(), &def_, joints_, pose, LKS_FIXED_ONE, LKS_FIXED_RATIO(1, 20)));
     }
-
-    static constexpr std::int64_t cape_top = 1475;
 
     Mannequin mannequin_;
     lks_ragdoll_def def_{};
