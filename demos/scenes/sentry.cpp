@@ -1,5 +1,6 @@
-// A mannequin stands on a plinth between two lanterns by its own strength, salutes, bows, and then is left by
-// it. The lanterns are heavy above and stand on light feet.
+// A mannequin in a cape stands on a plinth between two lanterns by its own strength, salutes, bows, and then
+// is left by it. The lanterns are heavy above and stand on light feet.
+#include "scenes/caped_scene.h"
 #include "scenes/mannequin.h"
 #include "scenes/scene_list.h"
 #include "scenes/time_curves.h"
@@ -13,17 +14,18 @@ constexpr lks_fixed lower = LKS_FIXED_RATIO(22, 10);
 constexpr lks_fixed bow = LKS_FIXED(3);
 constexpr lks_fixed collapse = LKS_FIXED_RATIO(39, 10);
 constexpr lks_vec3 side_axis = {LKS_FIXED_ONE, 0, 0};
+constexpr lks_vec3 up_axis = {0, LKS_FIXED_ONE, 0};
 constexpr lks_vec3 front_axis = {0, 0, LKS_FIXED_ONE};
 
-class Sentry final : public Scene {
+class Sentry final : public CapedScene {
 public:
-    using Scene::Scene;
+    using CapedScene::CapedScene;
 
 private:
     void configure(lks_world_def& def) override { def.substeps = 8; }
 
     bool build() override {
-        camera_ = {{3.1f, 1.9f, 4.0f}, {-0.1f, 0.78f, 0.5f}, 32.0f, {0.45f, 0.8f, 0.5f}};
+        camera_ = {{3.1f, 1.9f, 4.0f}, {-0.1f, 0.72f, 0.6f}, 37.0f, {0.45f, 0.8f, 0.5f}};
         return add_ground(rgb(0xa19e99)) &&
                add_block(millimetres(0, plinth / 2, 0), millimetres(480, plinth / 2, 420), rgb(0x8a8580)) &&
                add_mannequin() && add_lantern(-800) && add_lantern(800);
@@ -35,7 +37,8 @@ private:
         def_.bone_count = LKS_HUMANOID_BONES;
         def_.transform.position = millimetres(0, plinth + 15, 0);
         const MannequinLook look = mannequin_look(rgb(0x8c2f33), rgb(0x2f3a4f));
-        return add_ragdoll("mannequin", def_, look.bones, nullptr, joints_);
+        return add_ragdoll("mannequin", def_, look.bones, bodies_, joints_) &&
+               add_cape(bodies_[LKS_HUMANOID_CHEST], def_.transform.position, rgb(0x2d4a78), rgb(0x263e66));
     }
 
     // A foot of 1 kg under a post of 4 and a lantern of 18.
@@ -85,11 +88,14 @@ private:
             pose[i] = mannequin_.bones[i].body.transform;
         }
         const lks_fixed raised = since(seconds, salute) - since(seconds, lower);
-        // The right arm out to the side, the forearm up to the brow.
-        turn(pose[LKS_HUMANOID_UPPER_ARM_RIGHT], front_axis, -raised * 22 / 100);
-        for (const std::uint32_t bone : {LKS_HUMANOID_LOWER_ARM_RIGHT, LKS_HUMANOID_HAND_RIGHT}) {
-            turn(pose[bone], side_axis, -raised * 33 / 100);
-            turn(pose[bone], front_axis, -raised * 22 / 100);
+        // The elbow bent, the forearm turned upwards, and the arm out to the side: a hand at the brow.
+        for (const std::uint32_t bone :
+             {LKS_HUMANOID_UPPER_ARM_RIGHT, LKS_HUMANOID_LOWER_ARM_RIGHT, LKS_HUMANOID_HAND_RIGHT}) {
+            if (bone != LKS_HUMANOID_UPPER_ARM_RIGHT) {
+                turn(pose[bone], side_axis, -raised * 37 / 100);
+            }
+            turn(pose[bone], up_axis, -raised * 20 / 100);
+            turn(pose[bone], front_axis, -raised * 24 / 100);
         }
         const lks_fixed bent = since(seconds, bow);
         for (const std::uint32_t bone :
@@ -110,6 +116,7 @@ private:
 
     Mannequin mannequin_;
     lks_ragdoll_def def_{};
+    lks_body_id bodies_[LKS_HUMANOID_BONES];
     lks_joint_id joints_[LKS_HUMANOID_BONES - 1];
 };
 

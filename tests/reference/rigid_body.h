@@ -39,6 +39,7 @@ struct MovingBody {
     bool round = false;
     bool jointed = false;
     bool attached = false; // particles are held at it
+    bool pinned = false;   // so are some that do not move
     Scalar mass;
     Scalar inverse_mass = 0;
     Matrix<Scalar> inertia{}, inverse_inertia{}; // in its own axes

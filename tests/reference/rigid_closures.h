@@ -36,7 +36,7 @@ public:
         for (std::size_t i = 0; i < joints_.size(); ++i) {
             const auto may_hold = [&](std::size_t body) {
                 return !bodies_[body].moves || trees_.holds(body) ||
-                       (!has_points[body] && !bodies_[body].attached);
+                       (!has_points[body] && !bodies_[body].pinned);
             };
             const Joint& joint = joints_[i];
             if (!joint.in_tree && joint.has_rigid_turns() && may_hold(joint.a) && may_hold(joint.b)) {

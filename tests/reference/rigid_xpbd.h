@@ -61,6 +61,9 @@ public:
             parts_.attachments.emplace_back(from, rate_);
             if (from.to_body) {
                 bodies_[from.other].attached = true;
+                if (parts_.attachments.back().is_of_pinned(parts_.objects)) {
+                    bodies_[from.other].pinned = true;
+                }
             }
         }
         parts_.find_figures();

@@ -30,7 +30,7 @@ struct HeavySides {
 struct ArticulatedBody {
     std::int64_t share;      // of the tree's greatest inverse mass
     std::int64_t fine_share; // the same with 40 fraction bits: of uneven trees, and of those with loops
-    bool attached;
+    bool pinned; // at particles that do not move
     bool has_points;         // joints that hold points of it, while closures are found
     bool touches;            // what does not move, while light feet are found
     bool tree_has_anchor;    // of the root: a joint of its solve holds it on what does not move

@@ -165,7 +165,7 @@ private:
 
     void mark_attached() {
         for (ArticulatedBody& body : scene_.articulated) {
-            body.attached = body.loads_rope = false;
+            body.pinned = body.loads_rope = false;
             body.tree = no_tree;
             body.rope_load = no_rope_load;
         }
@@ -173,7 +173,8 @@ private:
             const AttachmentDescription& d = scene_.attachments[i].description;
             if (scene_.attachment_slots[i].used && d.kind == LKS_ATTACHMENT_TO_BODY) {
                 ArticulatedBody& body = scene_.articulated[d.other];
-                (scene_.attachments[i].loads_rope ? body.loads_rope : body.attached) = true;
+                body.loads_rope = body.loads_rope || scene_.attachments[i].loads_rope;
+                body.pinned = body.pinned || !scene_.attachments[i].constants.moves_particle();
             }
         }
     }
@@ -187,14 +188,14 @@ private:
         }
     }
 
-    // Bodies and joints from the root on. What does not move is a leaf. Trees with attachments are left to
-    // the sweeps, unless a joint holds them: an attachment begins from nothing and would find the bodies in
-    // free fall. What hangs on a rope that bears it is pushed as a whole, unless its masses are uneven: no
+    // Bodies and joints from the root on. What does not move is a leaf. Trees that hang on pinned particles
+    // are left to the sweeps, unless a joint holds them: an attachment begins from nothing and would find the
+    // bodies in free fall. What hangs on a rope that bears it is pushed as a whole, unless its masses are uneven: no
     // rope bears those.
     void walk(std::uint32_t root) {
         const auto begin = static_cast<std::uint32_t>(scene_.tree_bodies.size());
         const auto begin_joints = static_cast<std::uint32_t>(scene_.tree_joints.size());
-        bool attached = false;
+        bool pinned = false;
         bool loaded = false;
         bool anchored = false;
         scene_.tree_bodies.push_reserved(root);
@@ -205,12 +206,12 @@ private:
             if (heavier(scene_.bodies[lightest].inverse_mass, scene_.bodies[parent].inverse_mass)) {
                 lightest = parent;
             }
-            attached = attached || scene_.articulated[parent].attached;
+            pinned = pinned || scene_.articulated[parent].pinned;
             loaded = loaded || scene_.articulated[parent].loads_rope;
             anchored = anchored || is_anchored(scene_.articulated[parent]);
             add_joints(parent);
         }
-        if (attached && !has_anchor(begin_joints)) {
+        if (pinned && !has_anchor(begin_joints)) {
             drop_from(begin, begin_joints);
             return;
         }

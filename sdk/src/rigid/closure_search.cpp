@@ -93,7 +93,7 @@ private:
         }
         const ArticulatedBody& part = scene_.articulated[index];
         return part.tree != no_tree ? !scene_.trees[part.tree].is_loaded
-                                    : !part.has_points && !part.attached && !part.loads_rope;
+                                    : !part.has_points && !part.pinned && !part.loads_rope;
     }
 
     // All that closes its loops, or none: where there is no room for it. Of its feet as many as there is.
