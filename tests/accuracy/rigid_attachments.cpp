@@ -126,7 +126,6 @@ TEST_CASE(
     }
 }
 
-// Joints of a figure that something is tied to are no tree: each is solved by itself.
 TEST_CASE("an arm that holds a weight by two ropes tied together is within 2.5e-6 m after a second, 8e-5 m "
           "after two") {
     for (const int substeps : {8, 20}) {
@@ -171,5 +170,39 @@ TEST_CASE("two bones that lie deep in the ground and are tied are within 6e-7 m 
         scene.join(joint(LKS_JOINT_BALL, fixed(0, -0.2, 0), fixed(0, 0.2, 0)), bones[0], bones[1]);
         scene.attach(attachment(0, fixed(0, 0.2, 0), 1.0 / 64, 5), point, bones[0]);
         check("tied bones" + substeps_name(substeps) + ", 0.5 s", scene.run({30}).back(), {6e-7, 3e-6, 1000});
+    }
+}
+
+// Solved with the tree of its joints.
+TEST_CASE("three bones between two pinned particles, one of them soft, are within 6e-6 m after a second") {
+    for (const int substeps : {8, 20}) {
+        for (const bool second_is_soft : {false, true}) {
+            RigidScene scene(with_substeps(substeps));
+            const std::size_t points = scene.add_points({{0, 2, 0}, {0.8, 1.8, 0}}, {0.1, 0.1});
+            scene.pin(points, 0);
+            scene.pin(points, 1);
+            std::size_t bones[3];
+            for (int i = 0; i < 3; ++i) {
+                // Two lie level, and the last one hangs from their end.
+                lks_body_def def = at_rest(i < 2 ? fixed(0.2 + 0.4 * i, 2, 0) : fixed(0.8, 1.8, 0));
+                def.transform.rotation = about(0, 0, 1, i < 2 ? 90 : 0);
+                def.velocity = fixed(0, 0, i);
+                bones[i] = scene.add(capsule_shape(0.05, 0.15), def);
+                if (i > 0) {
+                    scene.join(
+                        joint(i == 1 ? LKS_JOINT_HINGE : LKS_JOINT_BALL, fixed(0, -0.2, 0), fixed(0, 0.2, 0)),
+                        bones[i - 1], bones[i]);
+                }
+            }
+            scene.attach(attachment(0, fixed(0, 0.2, 0)), points, bones[0]);
+            scene.attach(second_is_soft ? attachment(1, fixed(0, 0, 0), 1.0 / 4096, 5)
+                                        : attachment(1, fixed(0, 0, 0)),
+                         points, bones[2]);
+            const std::string name =
+                (second_is_soft ? "pinned bones, softly" : "pinned bones") + substeps_name(substeps);
+            const std::vector<RigidDeviation> d = scene.run({second, 10 * second});
+            check(name + ", 1 s", d[0], {6e-6, 3e-3, 100});
+            check(name + ", 10 s", d[1], {4e-4, 0.2, 100});
+        }
     }
 }

@@ -23,6 +23,8 @@ public:
     HeldParticle(const RigidAttachment& from, Scalar rate)
         : from_(from), point_(from.point), points_(Softness<Scalar>(from.compliance, from.damping, rate)) {}
 
+    bool holds_in_tree = false; // solved with its body's (rigid_closures.h)
+
     bool is_of_pinned(const Objects& objects) const {
         return from_.to_body && objects[from_.object].inverse_mass(from_.particle) == 0;
     }
@@ -60,6 +62,9 @@ public:
         }
     }
     void project(Objects& objects, Bodies& bodies) {
+        if (holds_in_tree) {
+            return;
+        }
         const Vec now = error(objects, bodies);
         const Vec next = points_.next_push(now, now - begin_, push_);
         const Vec more = next - push_;
@@ -71,6 +76,17 @@ public:
             move(objects[from_.other], from_.other_particle, more);
         }
     }
+
+    // Where it holds in a tree: its body's lever, what is to be brought to zero, and what was pushed for it.
+    void place_lever(const Bodies& bodies) { lever_ = bodies[from_.other].rotation * point_; }
+    const Vec& lever() const { return lever_; }
+    Vec left_in_tree(const Objects& objects, const Bodies& bodies, bool in_substep) const {
+        const Vec now = error(objects, bodies);
+        return !points_.is_soft() ? now : in_substep ? points_.left(now, now - begin_, push_) : Vec{};
+    }
+    Scalar give() const { return points_.give(); }
+    void add_push(const Vec& more) { push_ = push_ + more; }
+
     void finish_substep() { pushed_ = pushed_ + push_; }
 
     // What it will about do to its body in this substep, by what it did in those of the tick before.

@@ -125,7 +125,7 @@ private:
                 const Vec turned = turn_since(body, body.uncarried_orientation);
                 energies.add(body, 1, pushed, turned);
                 for (const HeldParticle<Scalar>& attachment : parts_.attachments) {
-                    if (attachment.holds(i)) {
+                    if (attachment.holds(i) && !attachment.holds_in_tree) {
                         energies.add_expected(body, pushed, turned, attachment.expected_move(body));
                     }
                 }

@@ -1,6 +1,7 @@
 // What closes loops in the rigid reference solver, solved with the trees of its figure
 // (sdk/src/rigid/closures.h): the trees' points and what their joints don't let turn are one dense system, of
-// which the rows of what closes loops, and of limits, make a smaller one.
+// which the rows of what closes loops, of attachments to what does not move, and of limits, make a smaller
+// one.
 #pragma once
 
 #include <algorithm>
@@ -43,8 +44,15 @@ public:
                 figure_at(parts_.figure_of(joint)).closing.push_back(i);
             }
         }
+        for (std::size_t i = 0; i < parts_.attachments.size(); ++i) {
+            const HeldParticle<Scalar>& held = parts_.attachments[i];
+            if (held.is_of_pinned(parts_.objects) && bodies_[held.other()].moves &&
+                trees_.holds(held.other())) {
+                figure_at(parts_.figures[held.other()]).pins.push_back(i);
+            }
+        }
         const auto is_full = [this](const Figure& figure) {
-            std::size_t rows = 0;
+            std::size_t rows = 3 * figure.pins.size();
             for (const std::size_t i : figure.closing) {
                 rows += joints_[i].closing_rows();
             }
@@ -55,6 +63,10 @@ public:
             for (const std::size_t i : figure.closing) {
                 joints_[i].in_tree = joints_[i].closes = joints_[i].turns_in_tree = true;
                 add_bodies(figure, joints_[i]);
+            }
+            for (const std::size_t i : figure.pins) {
+                parts_.attachments[i].holds_in_tree = true;
+                add_body(figure, parts_.attachments[i].other());
             }
             for (Tree& tree : trees_) {
                 add_tree(figure, tree);
@@ -67,6 +79,9 @@ public:
         for (Figure& figure : figures_) {
             for (const std::size_t i : figure.closing) {
                 joints_[i].place_levers(bodies_[joints_[i].a], bodies_[joints_[i].b]);
+            }
+            for (const std::size_t i : figure.pins) {
+                parts_.attachments[i].place_lever(bodies_);
             }
             factor(figure, true);
         }
@@ -101,11 +116,11 @@ public:
     }
 
 private:
-    enum class Kind { distance, point, turn, limit };
+    enum class Kind { distance, point, pin, turn, limit };
 
-    // b's point against a's along the axis, or b about it against a.
+    // b's point against a's along the axis, or b about it against a; of an attachment its body's.
     struct Row {
-        std::size_t joint;
+        std::size_t joint; // or attachment
         Kind kind;
         Vec axis;
         Scalar* kept = nullptr; // of limits: which
@@ -115,6 +130,7 @@ private:
     struct Figure {
         std::size_t name;
         std::vector<std::size_t> closing;
+        std::vector<std::size_t> pins; // attachments
         std::vector<std::size_t> bodies;
         std::vector<std::size_t> joints; // of its trees
         bool springs = false;            // of its trees
@@ -133,14 +149,16 @@ private:
                 return figure;
             }
         }
-        figures_.push_back({name, {}, {}, {}, false, {}, {}, {}, {}});
+        figures_.push_back({name, {}, {}, {}, {}, false, {}, {}, {}, {}});
         return figures_.back();
     }
     void add_bodies(Figure& figure, const Joint& joint) {
-        for (const std::size_t body : {joint.a, joint.b}) {
-            if (std::find(figure.bodies.begin(), figure.bodies.end(), body) == figure.bodies.end()) {
-                figure.bodies.push_back(body);
-            }
+        add_body(figure, joint.a);
+        add_body(figure, joint.b);
+    }
+    void add_body(Figure& figure, std::size_t body) {
+        if (std::find(figure.bodies.begin(), figure.bodies.end(), body) == figure.bodies.end()) {
+            figure.bodies.push_back(body);
         }
     }
     // Where one of its bodies is the figure's.
@@ -155,7 +173,15 @@ private:
                 return is_of(joints_[i].a) || is_of(joints_[i].b);
             });
         };
-        if (!is_part(tree.joints.front()) || !std::any_of(tree.joints.begin(), tree.joints.end(), closes)) {
+        const auto is_pinned = [&](std::size_t i) {
+            return std::any_of(figure.pins.begin(), figure.pins.end(), [&](std::size_t p) {
+                const std::size_t body = parts_.attachments[p].other();
+                return body == joints_[i].a || body == joints_[i].b;
+            });
+        };
+        if (!is_part(tree.joints.front()) ||
+            !std::any_of(tree.joints.begin(), tree.joints.end(),
+                         [&](std::size_t i) { return closes(i) || is_pinned(i); })) {
             return;
         }
         tree.closed = true;
@@ -173,6 +199,13 @@ private:
         }
     }
     void push(const Row& row, const Vec& axis, Scalar size) {
+        if (row.kind == Kind::pin) {
+            const HeldParticle<Scalar>& held = parts_.attachments[row.joint];
+            Body& body = bodies_[held.other()];
+            body.force = body.force + axis * size;
+            body.torque = body.torque + cross(held.lever(), axis * size);
+            return;
+        }
         Joint& joint = joints_[row.joint];
         if (row.kind == Kind::point || row.kind == Kind::distance) {
             trees_.add_push(joint, axis * size);
@@ -182,6 +215,12 @@ private:
         }
     }
     Scalar motion(const Row& row) const {
+        if (row.kind == Kind::pin) {
+            const HeldParticle<Scalar>& held = parts_.attachments[row.joint];
+            const Body& body = bodies_[held.other()];
+            return row.axis.dot(body.force * body.inverse_mass +
+                                cross(body.world_inverse * body.torque, held.lever()));
+        }
         const Joint& joint = joints_[row.joint];
         const Body& a = bodies_[joint.a];
         const Body& b = bodies_[joint.b];
@@ -207,6 +246,10 @@ private:
         }
     }
     void keep(const Row& row, Scalar more) {
+        if (row.kind == Kind::pin) {
+            parts_.attachments[row.joint].add_push(row.axis * more);
+            return;
+        }
         Joint& joint = joints_[row.joint];
         if (row.kind == Kind::point) {
             joint.push = joint.push + row.axis * more;
@@ -292,6 +335,11 @@ private:
             }
             add_limits(i, in_substep, figure.rows);
         }
+        for (const std::size_t i : figure.pins) {
+            for (int axis = 0; axis < 3; ++axis) {
+                figure.rows.push_back({i, Kind::pin, along_axis(axis, Scalar(1))});
+            }
+        }
         for (const std::size_t i : figure.joints) {
             add_limits(i, in_substep, figure.rows);
         }
@@ -330,6 +378,8 @@ private:
             const Row& row = figure.rows[i];
             if (in_substep && (row.kind == Kind::point || row.kind == Kind::distance)) {
                 matrix[i * rows.size() + i] += joints_[row.joint].points_give();
+            } else if (in_substep && row.kind == Kind::pin) {
+                matrix[i * rows.size() + i] += parts_.attachments[row.joint].give();
             }
         }
         Scalar give = Scalar(0x1p-8);
@@ -357,11 +407,10 @@ private:
         keep_trees(figure, tree_pushes);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const Row& row = figure.rows[i];
-            Joint& joint = joints_[row.joint];
             if (row.kind == Kind::distance) {
-                joint.push = rows[i].axis * (rows[i].push + pushes[i]);
+                joints_[row.joint].push = rows[i].axis * (rows[i].push + pushes[i]);
             } else if (row.kind == Kind::limit) {
-                joint.keep_push(rows[i], pushes[i]);
+                joints_[row.joint].keep_push(rows[i], pushes[i]);
             } else {
                 keep(row, pushes[i]);
             }
@@ -408,10 +457,13 @@ private:
         bool near = true;
         rows.clear();
         for (const Row& row : figure.rows) {
-            Joint& joint = joints_[row.joint];
             HeldRow<Scalar> held{row.axis, 0, 0, nullptr, 1, row.joint};
-            if (row.kind == Kind::distance) {
-                const auto left = distance_of(joint, in_substep);
+            if (row.kind == Kind::pin) {
+                const Vec left =
+                    parts_.attachments[row.joint].left_in_tree(parts_.objects, bodies_, in_substep);
+                held.error = row.axis.dot(within_most(left, in_substep));
+            } else if (row.kind == Kind::distance) {
+                const auto left = distance_of(joints_[row.joint], in_substep);
                 const Scalar sign = left.side < 0 ? Scalar(-1) : Scalar(1);
                 held.axis = left.way * sign;
                 held.error = left.left * sign;
@@ -423,16 +475,16 @@ private:
             } else if (row.kind == Kind::turn) {
                 held.error = row.axis.dot(turned(row.joint, in_substep));
             } else {
-                Vec apart = trees_.error_of(joint, in_substep);
-                if (!in_substep) {
-                    const auto within = [](Scalar c) { return std::clamp(c, -most_undone, most_undone); };
-                    apart = {within(apart.x), within(apart.y), within(apart.z)};
-                }
-                held.error = row.axis.dot(apart);
+                const Vec apart = trees_.error_of(joints_[row.joint], in_substep);
+                held.error = row.axis.dot(within_most(apart, in_substep));
             }
             rows.push_back(held);
         }
         return near;
+    }
+    static Vec within_most(const Vec& apart, bool in_substep) {
+        const auto within = [](Scalar c) { return std::clamp(c, -most_undone, most_undone); };
+        return in_substep ? apart : Vec{within(apart.x), within(apart.y), within(apart.z)};
     }
     bool measure_limit(const Row& row, bool in_substep, HeldRow<Scalar>& held) {
         for (const HeldRow<Scalar>& found : rows_of(row.joint, in_substep)) {
@@ -470,6 +522,9 @@ private:
     }
     // What a radian counts as.
     Scalar length_of(const Row& row) const {
+        if (row.kind == Kind::pin) {
+            return 1;
+        }
         const Body& a = bodies_[joints_[row.joint].a];
         const Body& b = bodies_[joints_[row.joint].b];
         return row.kind == Kind::point || row.kind == Kind::distance ? Scalar(1)

@@ -39,9 +39,14 @@ public:
         k_.factor(3, std::move(k));
     }
 
+    bool is_soft() const { return softness_.is_soft(); }
+    Scalar give() const { return softness_.added; } // by a push of one
     // XPBD of soft ones; `motion` is that of the substep.
+    Vec left(const Vec& error, const Vec& motion, const Vec& push) const {
+        return softness_.is_soft() ? softness_.left(error, motion, push) : error;
+    }
     Vec next_push(const Vec& error, const Vec& motion, const Vec& push) const {
-        return push - pushed_by(softness_.is_soft() ? softness_.left(error, motion, push) : error);
+        return push - pushed_by(left(error, motion, push));
     }
     // What brings them together.
     Vec pushed_by(const Vec& error) const {

@@ -35,8 +35,7 @@ public:
     explicit JointTrees(RigidParts<Scalar>& parts) : bodies_(parts.bodies), joints_(parts.joints) {}
 
     // Distances and what has soft turns are left out, and so are joints that close loops, the soft ones
-    // rather than the rigid, and those of trees that hang on pinned particles and that no joint holds. One joint
-    // holds a tree at what does not move.
+    // rather than the rigid. One joint holds a tree at what does not move.
     void find() {
         std::vector<std::size_t> roots(bodies_.size());
         std::iota(roots.begin(), roots.end(), std::size_t{0});
@@ -54,18 +53,9 @@ public:
             }
             Tree tree;
             tree.joints = joints_from(root);
-            bool pinned = false;
-            for_each_body(tree,
-                          [&](const Body& body) { pinned = pinned || (body.moves && body.pinned); });
             for (const std::size_t i : tree.joints) {
                 tree.springs = tree.springs || joints_[i].has_soft_points();
                 tree.held = tree.held || is_anchor(joints_[i]);
-            }
-            if (pinned && !tree.held) {
-                for (const std::size_t i : tree.joints) {
-                    joints_[i].in_tree = false;
-                }
-                continue;
             }
             for (const std::size_t i : tree.joints) {
                 joints_[i].in_held_tree = tree.held;

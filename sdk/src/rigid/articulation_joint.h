@@ -33,10 +33,12 @@ inline void place_joint(RigidScene& scene, ArticulatedJoint& part, fixed::Vec3 (
     add_point_motion(part.parent_lever, column_shift, column_turn, d);
 }
 
-// What a joint's points give way by, in fraction bits and unit of `greater_share`, the pair's greater inverse
-// mass.
+// What points give way by, in fraction bits and unit of `greater_share`, the pair's greater inverse mass.
+inline std::int64_t points_give(const Softness& points, std::int64_t greater_share) {
+    return fixed::multiply_shift(points.softness, greater_share, 30);
+}
 inline std::int64_t points_give(const Joint& joint, std::int64_t greater_share) {
-    return fixed::multiply_shift(joint.constants.points.softness, greater_share, 30);
+    return points_give(joint.constants.points, greater_share);
 }
 
 // It counts in D, too.

@@ -30,7 +30,8 @@ struct HeavySides {
 struct ArticulatedBody {
     std::int64_t share;      // of the tree's greatest inverse mass
     std::int64_t fine_share; // the same with 40 fraction bits: of uneven trees, and of those with loops
-    bool pinned; // at particles that do not move
+    std::uint32_t pins;      // particles that do not move and that it is attached to (rigid/closures.h)
+    bool pinned;             // at some that can't be solved with its tree
     bool has_points;         // joints that hold points of it, while closures are found
     bool touches;            // what does not move, while light feet are found
     bool tree_has_anchor;    // of the root: a joint of its solve holds it on what does not move
@@ -88,10 +89,12 @@ struct ArticulatedTree {
     // By a joint to what does not move, by a rope that such a thing holds, or a light body by heavy ones on
     // both sides: what joints turn is solved with their points (rigid/held_tree.h).
     bool is_held;
-    bool is_loaded;   // it hangs on ropes that bear it
-    bool has_springs; // in the points of a joint
-    bool is_uneven;   // one of its bodies has a hundred times the mass of another, and more
-    bool stands;      // on light feet (rigid/light_feet.h)
+    bool is_loaded;     // it hangs on ropes that bear it
+    bool has_springs;   // in the points of a joint
+    bool is_uneven;     // one of its bodies has a hundred times the mass of another, and more
+    bool is_pinned;     // by what may be solved with it (rigid/closures.h)
+    std::uint32_t pins; // that are
+    bool stands;        // on light feet (rigid/light_feet.h)
     // How often its longest lever is twice as long as those of most trees at most: what pushes there turns by
     // as much more.
     int lever_doublings;

@@ -166,6 +166,7 @@ private:
     void mark_attached() {
         for (ArticulatedBody& body : scene_.articulated) {
             body.pinned = body.loads_rope = false;
+            body.pins = 0;
             body.tree = no_tree;
             body.rope_load = no_rope_load;
         }
@@ -173,8 +174,11 @@ private:
             const AttachmentDescription& d = scene_.attachments[i].description;
             if (scene_.attachment_slots[i].used && d.kind == LKS_ATTACHMENT_TO_BODY) {
                 ArticulatedBody& body = scene_.articulated[d.other];
-                body.loads_rope = body.loads_rope || scene_.attachments[i].loads_rope;
-                body.pinned = body.pinned || !scene_.attachments[i].constants.moves_particle();
+                const Attachment& attachment = scene_.attachments[i];
+                const bool fits = fits_trees(scene_, attachment);
+                body.loads_rope = body.loads_rope || attachment.loads_rope;
+                body.pins += fits ? 1u : 0u;
+                body.pinned = body.pinned || (!fits && !attachment.constants.moves_particle());
             }
         }
     }
@@ -188,14 +192,15 @@ private:
         }
     }
 
-    // Bodies and joints from the root on. What does not move is a leaf. Trees that hang on pinned particles
-    // are left to the sweeps, unless a joint holds them: an attachment begins from nothing and would find the
-    // bodies in free fall. What hangs on a rope that bears it is pushed as a whole, unless its masses are uneven: no
-    // rope bears those.
+    // Bodies and joints from the root on. What does not move is a leaf. Trees that hang on nothing but pinned
+    // particles with which they can't be solved are left to the sweeps: an attachment begins from nothing and
+    // would find the bodies in free fall. What hangs on a rope that bears it is pushed as a
+    // whole, unless its masses are uneven: no rope bears those.
     void walk(std::uint32_t root) {
         const auto begin = static_cast<std::uint32_t>(scene_.tree_bodies.size());
         const auto begin_joints = static_cast<std::uint32_t>(scene_.tree_joints.size());
         bool pinned = false;
+        std::uint32_t pins = 0;
         bool loaded = false;
         bool anchored = false;
         scene_.tree_bodies.push_reserved(root);
@@ -207,11 +212,13 @@ private:
                 lightest = parent;
             }
             pinned = pinned || scene_.articulated[parent].pinned;
+            pins += scene_.articulated[parent].pins;
             loaded = loaded || scene_.articulated[parent].loads_rope;
             anchored = anchored || is_anchored(scene_.articulated[parent]);
             add_joints(parent);
         }
-        if (pinned && !has_anchor(begin_joints)) {
+        const bool is_pinned = pins != 0 && !loaded;
+        if ((pinned || pins != 0) && !is_pinned && !has_anchor(begin_joints)) {
             drop_from(begin, begin_joints);
             return;
         }
@@ -239,6 +246,7 @@ private:
         tree.joint_end = static_cast<std::uint32_t>(scene_.tree_joints.size());
         tree.is_held = held;
         tree.is_loaded = loaded;
+        tree.is_pinned = is_pinned;
         tree.has_springs = has_springs(begin_joints);
         tree.is_uneven = uneven;
         tree.lever_doublings = find_doublings(begin_joints);
@@ -363,6 +371,14 @@ bool fits_trees(const RigidScene& scene, const Joint& joint) {
     return joint.constants.points.softness <= greatest_tree_softness &&
            joint.constants.angular_softness == 0 && (a.is_awake() || b.is_awake()) && is_near(a, d.point_a) &&
            is_near(b, d.point_b);
+}
+
+bool fits_trees(const RigidScene& scene, const Attachment& attachment) {
+    const AttachmentDescription& d = attachment.description;
+    return d.kind == LKS_ATTACHMENT_TO_BODY && !attachment.constants.moves_particle() &&
+           scene.bodies[d.other].is_awake() &&
+           attachment.constants.softness.softness <= greatest_tree_softness &&
+           is_near(scene.bodies[d.other], d.point);
 }
 
 void find_articulations(RigidScene& scene) {

@@ -74,6 +74,11 @@ Vec3 attachment_error(const Attachment& attachment, const AttachmentSides& sides
     return saturating_subtract(attachment_offset(attachment, sides), attachment.left);
 }
 
+Vec3 pin_error(const Attachment& attachment, const Body& body) {
+    const Vec3 point = body.position + fixed::rotate(body.rotation, attachment.description.point);
+    return saturating_subtract(saturating_subtract(point, attachment.held_at), attachment.left);
+}
+
 AttachmentConstants make_attachment_constants(const AttachmentDescription& d, const AttachmentSides& sides,
                                               const StepRate& rate) {
     AttachmentConstants c{};
@@ -133,6 +138,7 @@ void measure_left(Attachment& attachment, const AttachmentSides& sides, const Mo
 void begin_substep(Attachment& attachment, const AttachmentSides& sides) {
     const AttachmentConstants& c = attachment.constants;
     attachment.push = {0, 0, 0};
+    attachment.held_at = particle_position(sides.object, attachment.description.particle);
     attachment.begin = attachment_error(attachment, sides);
     const std::int64_t diagonal = c.softness.softness + c.shares.a + (sides.body == nullptr ? c.shares.b : 0);
     std::int64_t k[6] = {};
@@ -151,7 +157,7 @@ void begin_substep(Attachment& attachment, const AttachmentSides& sides) {
 }
 
 void project(Attachment& attachment, const AttachmentSides& sides) {
-    if (attachment.constants.movable == 0) {
+    if (attachment.constants.movable == 0 || attachment.holds_in_tree) {
         return;
     }
     const Vec3 error = attachment_error(attachment, sides);

@@ -55,10 +55,12 @@ struct Attachment {
     // Of the tick: what it pushed in a substep of the last one.
     fixed::Vec3 expected;
 
-    bool loads_rope; // its rope bears what hangs here (rigid/rope_loads.h)
+    bool loads_rope;    // its rope bears what hangs here (rigid/rope_loads.h)
+    bool holds_in_tree; // what holds here is solved with the body's tree (rigid/closures.h)
 
     // Of the substep.
-    fixed::Vec3 left; // how far the sides stay apart for now
+    fixed::Vec3 left;    // how far the sides stay apart for now
+    fixed::Vec3 held_at; // where the particle is once it is predicted
     fixed::Vec3 push;
     fixed::Vec3 begin; // how far they are apart once they are predicted
     BlockSide side;
@@ -103,7 +105,7 @@ void measure_left(Attachment& attachment, const AttachmentSides& sides, const Mo
 // After the prediction.
 void begin_substep(Attachment& attachment, const AttachmentSides& sides);
 void project(Attachment& attachment, const AttachmentSides& sides);
-// Only remembers what has been pushed otherwise (rigid/rope_loads.h).
+// Only remembers what has been pushed otherwise (rigid/rope_loads.h, rigid/closures.h).
 void add_push(Attachment& attachment, const fixed::Vec3& push);
 // Adds up what it pushed.
 void finish_substep(Attachment& attachment);
@@ -113,6 +115,8 @@ bool breaks(const Attachment& attachment);
 fixed::Vec3 attachment_offset(const Attachment& attachment, const AttachmentSides& sides);
 // The same beyond what stays in this substep.
 fixed::Vec3 attachment_error(const Attachment& attachment, const AttachmentSides& sides);
+// The same where the particle does not move: the body less where that is held.
+fixed::Vec3 pin_error(const Attachment& attachment, const Body& body);
 // A particle in the world.
 fixed::Vec3 particle_position(const Object& object, std::uint32_t particle);
 // By a World shift; what leaves the object's range stops at its edge.

@@ -74,7 +74,11 @@ public:
         add_neighbours();
         for_each_acting(scene_, range_, Part::contact,
                         [&](std::uint32_t i) { move_with_holder(scene_.contacts[i], rate); });
-        for_each(Part::attachment, [this](std::uint32_t i) { add_attachment(scene_.attachments[i]); });
+        for_each(Part::attachment, [this](std::uint32_t i) {
+            if (!scene_.attachments[i].holds_in_tree) {
+                add_attachment(scene_.attachments[i]);
+            }
+        });
         if (q_ == Int128{0, 0}) {
             return 0;
         }

@@ -14,6 +14,7 @@ namespace lks {
 // Of a figure: what closes loops in more is swept, and so are limits and contacts that there is no room for.
 inline constexpr std::uint32_t most_closure_rows = 48;
 inline constexpr std::uint32_t closure_rows_a_joint = 3;
+inline constexpr std::uint32_t closure_rows_a_pin = 3;
 // Where it stands on light feet: limits, and contacts' points.
 inline constexpr std::uint32_t standing_rows_a_joint = 8;
 
@@ -23,12 +24,13 @@ struct ClosureSide {
     fixed::Vec3 lever;  // as its factors have it: as ArticulatedJoint's
 };
 
-// A joint that closes a loop, one of a tree that has limits, or a contact of a foot.
+// A joint that closes a loop, an attachment to what does not move, a joint of a tree that has limits, or a
+// contact of a foot.
 struct Closure {
-    enum class Kind : std::uint8_t { closing, limits, foot };
+    enum class Kind : std::uint8_t { closing, pin, limits, foot };
 
     Kind kind;
-    std::uint32_t index; // of the scene's joints, or contacts
+    std::uint32_t index; // of the scene's joints, attachments, or contacts
     std::uint32_t first_row;
     std::uint32_t row_count;
     ClosureSide a;
@@ -75,9 +77,12 @@ constexpr std::uint32_t entry_of(std::uint32_t row, std::uint32_t column) {
     return row * (row + 1) / 2 + column;
 }
 inline constexpr std::uint32_t most_closure_entries = entry_of(most_closure_rows, 0);
-// Of all figures of a scene with so many joints.
-constexpr std::size_t greatest_closure_entries(std::size_t joints) {
-    return standing_rows_a_joint * joints * (most_closure_rows + 1) / 2;
+// Of all figures of a scene with so many joints, and attachments; and with so many rows.
+constexpr std::size_t greatest_closure_rows(std::size_t joints, std::size_t attachments) {
+    return standing_rows_a_joint * joints + closure_rows_a_pin * attachments;
+}
+constexpr std::size_t greatest_closure_entries(std::size_t rows) {
+    return rows * (most_closure_rows + 1) / 2;
 }
 
 } // namespace lks

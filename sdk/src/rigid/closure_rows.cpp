@@ -4,8 +4,10 @@
 #include <bit>
 #include <iterator>
 
+#include "collide/saturation.h"
 #include "rigid/articulation.h"
 #include "rigid/articulation_joint.h"
+#include "rigid/attachment.h"
 #include "rigid/contact_search.h"
 #include "rigid/joint_drive.h"
 #include "rigid/joint_limits.h"
@@ -68,6 +70,8 @@ void ClosureRows::place() {
         closing -= rows_to_close(closure);
         if (closure.kind == Closure::Kind::foot) {
             place_foot(closure);
+        } else if (closure.kind == Closure::Kind::pin) {
+            place_pin(closure);
         } else {
             place_joint(closure);
             place_limits(closure, margin, range_.row_room - closing);
@@ -77,6 +81,9 @@ void ClosureRows::place() {
 
 // Of a foot: of its points that are near.
 std::uint32_t ClosureRows::rows_to_close(const Closure& closure) const {
+    if (closure.kind == Closure::Kind::pin) {
+        return closure_rows_a_pin;
+    }
     if (closure.kind != Closure::Kind::foot) {
         return closure.kind == Closure::Kind::closing ? closing_rows(joint_of(closure)) : 0;
     }
@@ -92,7 +99,7 @@ std::int64_t ClosureRows::find_margin(std::uint32_t room) {
     constexpr std::int64_t margins[] = {far_from_limit, far_from_limit / 4, far_from_limit / 16};
     std::uint32_t counts[std::size(margins)] = {};
     for_each([&](const Closure& closure) {
-        if (closure.kind == Closure::Kind::foot) {
+        if (!is_of_joint(closure)) {
             return;
         }
         HeldRow limits[most_held_rows];
@@ -146,6 +153,17 @@ void ClosureRows::place_foot(Closure& closure) {
     }
 }
 
+void ClosureRows::place_pin(Closure& closure) {
+    closure.b.lever = lever_in_units(body_b(closure), pin_of(closure).description.point);
+    add_points(closure);
+}
+
+void ClosureRows::add_points(Closure& closure) {
+    add(closure, ClosureRow::Kind::point, {direction_one, 0, 0});
+    add(closure, ClosureRow::Kind::point, {0, direction_one, 0});
+    add(closure, ClosureRow::Kind::point, {0, 0, direction_one});
+}
+
 void ClosureRows::place_joint(Closure& closure) {
     const Joint& joint = joint_of(closure);
     for (ClosureSide* side : {&closure.a, &closure.b}) {
@@ -157,9 +175,7 @@ void ClosureRows::place_joint(Closure& closure) {
     if (closes && is_distance(joint)) {
         add(closure, ClosureRow::Kind::distance, distance_error_of(closure).way);
     } else if (closes) {
-        add(closure, ClosureRow::Kind::point, {direction_one, 0, 0});
-        add(closure, ClosureRow::Kind::point, {0, direction_one, 0});
-        add(closure, ClosureRow::Kind::point, {0, 0, direction_one});
+        add_points(closure);
         HeldRow turns[most_held_rows];
         const std::uint32_t count = turn_rows(joint, body_a(closure), body_b(closure), true, turns);
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -236,7 +252,9 @@ std::int64_t ClosureRows::spring_give(const Closure& closure, const ClosureRow& 
     if (!in_substep_ || !is_along(row) || row.kind == ClosureRow::Kind::contact) {
         return 0;
     }
-    const std::int64_t give = points_give(joint_of(closure), closure.pair_share);
+    const Softness& softness = closure.kind == Closure::Kind::pin ? pin_of(closure).constants.softness
+                                                                  : joint_of(closure).constants.points;
+    const std::int64_t give = points_give(softness, closure.pair_share);
     return scaled_by(give, fine_fraction_bits - tree_fraction_bits);
 }
 
@@ -258,6 +276,22 @@ Vec3 ClosureRows::left_apart_of(const Closure& closure) const {
     Vec3 apart = points_apart(joint, body_a(closure), body_b(closure), false);
     clamp_vector(apart, greatest_undone);
     return apart;
+}
+
+// What is undone strains no spring.
+Vec3 ClosureRows::left_of_pin(const Closure& closure) const {
+    const Attachment& pin = pin_of(closure);
+    const Softness& softness = pin.constants.softness;
+    Vec3 left = pin_error(pin, body_b(closure));
+    if (!in_substep_) {
+        clamp_vector(left, greatest_undone);
+        return softness.softness == 0 ? left : Vec3{0, 0, 0};
+    }
+    if (softness.softness != 0) {
+        left = soften(softness, left, saturating_subtract(left, pin.begin), pin.push);
+    }
+    clamp_vector(left, greatest_step_of(softness));
+    return left;
 }
 
 bool ClosureRows::measure(ClosureUnknown (&unknowns)[most_closure_rows]) {
@@ -292,7 +326,10 @@ bool ClosureRows::measure(ClosureUnknown (&unknowns)[most_closure_rows]) {
 // What several of its rows need.
 ClosureRows::Measured ClosureRows::measure(const Closure& closure) const {
     Measured measured{};
-    if (closure.kind == Closure::Kind::foot) {
+    if (closure.kind == Closure::Kind::pin) {
+        measured.apart = left_of_pin(closure);
+    }
+    if (!is_of_joint(closure)) {
         return measured;
     }
     const Joint& joint = joint_of(closure);
@@ -308,11 +345,16 @@ ClosureRows::Measured ClosureRows::measure(const Closure& closure) const {
 
 bool ClosureRows::measure(const Closure& closure, const Measured& measured, const ClosureRow& row,
                           std::uint32_t number, ClosureUnknown& unknown) {
-    if (row.kind != ClosureRow::Kind::contact) {
+    switch (closure.kind) {
+    case Closure::Kind::foot:
+        measure_foot(closure, row, unknown);
+        return true;
+    case Closure::Kind::pin:
+        unknown.left = fixed::dot(row.along, measured.apart);
+        return true;
+    default:
         return measure_joint(closure, measured, row, number, unknown);
     }
-    measure_foot(closure, row, unknown);
-    return true;
 }
 
 // What is undone moves feet as their joints have it.
@@ -373,6 +415,10 @@ void ClosureRows::keep_push(const Closure& closure, const ClosureRow& row, std::
     if (row.kind == ClosureRow::Kind::contact) {
         std::int64_t& push = contact_of(closure).points[row.point].push.normal;
         push = rests ? 0 : std::clamp<std::int64_t>(push + more, 0, greatest_push);
+        return;
+    }
+    if (closure.kind == Closure::Kind::pin) {
+        add_push(pin_of(closure), fixed::scale(row.along, more));
         return;
     }
     Joint& joint = joint_of(closure);

@@ -84,6 +84,7 @@ private:
     const Body& body_a(const Closure& closure) const { return scene_.bodies[closure.a.body]; }
     const Body& body_b(const Closure& closure) const { return scene_.bodies[closure.b.body]; }
     Joint& joint_of(const Closure& closure) const { return scene_.joints[closure.index]; }
+    Attachment& pin_of(const Closure& closure) const { return scene_.attachments[closure.index]; }
     Contact& contact_of(const Closure& closure) const { return scene_.contacts[closure.index]; }
     ContactBodies foot_bodies(const Closure& closure) const;
     std::uint32_t feet_points(const Closure& closure) const {
@@ -99,14 +100,20 @@ private:
 
     std::uint32_t rows_to_close(const Closure& closure) const;
     std::int64_t find_margin(std::uint32_t room);
+    static bool is_of_joint(const Closure& closure) {
+        return closure.kind == Closure::Kind::closing || closure.kind == Closure::Kind::limits;
+    }
     bool is_driven(const Joint& joint) const;
     std::uint32_t limits_of(const Closure& closure, HeldRow (&limits)[most_held_rows]) const;
     void place_joint(Closure& closure);
+    void place_pin(Closure& closure);
+    void add_points(Closure& closure);
     void place_foot(Closure& closure);
     void place_limits(Closure& closure, std::int64_t margin, std::uint32_t room);
     ClosureRow& add(Closure& closure, ClosureRow::Kind kind, const fixed::Direction& along);
     DistanceError distance_error_of(const Closure& closure) const;
     fixed::Vec3 left_apart_of(const Closure& closure) const;
+    fixed::Vec3 left_of_pin(const Closure& closure) const;
     struct Measured {
         fixed::Vec3 apart;
         fixed::Vec3 turned;

@@ -10,22 +10,30 @@
 namespace lks {
 namespace {
 
+// Of a body, and of all of a tree.
+constexpr std::uint32_t most_pins_a_body = 3;
+constexpr std::uint32_t most_pins_a_tree = 12;
+
 class ClosureSearch {
 public:
     explicit ClosureSearch(RigidScene& scene) : scene_(scene) {}
 
     void find() {
         scene_.closing_joints.clear();
+        scene_.tree_pins.clear();
         scene_.closures.clear();
         scene_.closure_ranges.clear();
         scene_.closure_rows.clear();
         scene_.closure_matrix.clear();
         find_candidates();
+        find_pins();
         Found joints{scene_.closing_joints.begin(), scene_.closing_joints.end()};
+        Found pins{scene_.tree_pins.begin(), scene_.tree_pins.end()};
         Found feet{scene_.foot_contacts.begin(), scene_.foot_contacts.end()};
-        while (!joints.empty() || !feet.empty()) {
-            const std::uint32_t figure = std::min(joints.next_figure(), feet.next_figure());
-            take(figure, joints.cut_off(figure), feet.cut_off(figure));
+        while (!joints.empty() || !pins.empty() || !feet.empty()) {
+            const std::uint32_t figure =
+                std::min({joints.next_figure(), pins.next_figure(), feet.next_figure()});
+            take(figure, joints.cut_off(figure), pins.cut_off(figure), feet.cut_off(figure));
         }
         if (!scene_.closures.empty()) { // within its room
             static_cast<void>(scene_.closure_tree_joints.resize(scene_.tree_joints.size()));
@@ -33,7 +41,7 @@ public:
     }
 
 private:
-    // Indices of joints, or contacts, behind that of their figure; ascending.
+    // Indices of joints, attachments, or contacts, behind that of their figure; ascending.
     struct Found {
         const std::uint64_t* first;
         const std::uint64_t* end;
@@ -69,6 +77,31 @@ private:
         sort_numbers(scene_.closing_joints, scene_.sorting);
     }
 
+    // The first ones that hold a body; what else does is swept.
+    void find_pins() {
+        for (ArticulatedBody& part : scene_.articulated) {
+            part.pins = 0;
+        }
+        for (std::uint32_t i = 0; i < scene_.attachments.size(); ++i) {
+            const Attachment& attachment = scene_.attachments[i];
+            if (!scene_.attachment_slots[i].used || !fits_trees(scene_, attachment)) {
+                continue;
+            }
+            const std::uint32_t index = attachment.description.other;
+            ArticulatedBody& part = scene_.articulated[index];
+            if (part.tree == no_tree || part.pins == most_pins_a_body) {
+                continue;
+            }
+            ArticulatedTree& tree = scene_.trees[part.tree];
+            if (tree.is_pinned && tree.pins < most_pins_a_tree) {
+                ++part.pins;
+                ++tree.pins;
+                scene_.tree_pins.push_reserved(std::uint64_t{scene_.figures[index]} << 32 | i);
+            }
+        }
+        sort_numbers(scene_.tree_pins, scene_.sorting);
+    }
+
     // Bodies with joints that hold points, whether a tree has them or not.
     void mark_jointed() {
         for (ArticulatedBody& part : scene_.articulated) {
@@ -93,11 +126,12 @@ private:
         }
         const ArticulatedBody& part = scene_.articulated[index];
         return part.tree != no_tree ? !scene_.trees[part.tree].is_loaded
-                                    : !part.has_points && !part.pinned && !part.loads_rope;
+                                    : !part.has_points && !part.pinned && part.pins == 0 && !part.loads_rope;
     }
 
-    // All that closes its loops, or none: where there is no room for it. Of its feet as many as there is.
-    void take(std::uint32_t figure, Found joints, Found feet) {
+    // All that closes its loops, or none: where there is no room for it. Of what it is attached to, and of
+    // its feet, as many as there is.
+    void take(std::uint32_t figure, Found joints, Found pins, Found feet) {
         std::size_t rows = 0;
         std::size_t beside = 0; // of the greatest tree
         for (const std::uint64_t* joint = joints.first; joint != joints.end; ++joint) {
@@ -105,11 +139,15 @@ private:
             rows += closing_rows(joint_of(*joint));
             beside = std::max({beside, joints_beside(d.body_a), joints_beside(d.body_b)});
         }
-        if (rows >
-            std::min<std::size_t>(closure_rows_a_joint * (joints.size() + beside), most_closure_rows)) {
+        pins.end = pins.first + std::min<std::size_t>(pins.size(), most_closure_rows / closure_rows_a_pin);
+        const std::size_t pin_rows = closure_rows_a_pin * pins.size();
+        if (rows > std::min<std::size_t>(closure_rows_a_joint * (joints.size() + beside),
+                                         most_closure_rows - pin_rows)) {
             joints.end = joints.first;
+            rows = 0;
         }
-        if (joints.empty() && feet.empty()) {
+        rows += pin_rows;
+        if (joints.empty() && pins.empty() && feet.empty()) {
             return;
         }
         ClosureRange range{};
@@ -118,6 +156,9 @@ private:
         range.first = static_cast<std::uint32_t>(scene_.closures.size());
         for (const std::uint64_t* joint = joints.first; joint != joints.end; ++joint) {
             add_closing(static_cast<std::uint32_t>(*joint));
+        }
+        for (const std::uint64_t* pin = pins.first; pin != pins.end; ++pin) {
+            add_pin(static_cast<std::uint32_t>(*pin));
         }
         const std::size_t room = foot_room(joints, feet, rows);
         for (const std::uint64_t* foot = feet.first; foot != feet.end && foot != feet.first + room; ++foot) {
@@ -129,8 +170,8 @@ private:
         find_shares(range);
         const std::size_t tree_joints = add_trees(range);
         const std::uint32_t rows_a_joint = range.stands ? standing_rows_a_joint : closure_rows_a_joint;
-        range.row_room = static_cast<std::uint32_t>(
-            std::min<std::size_t>(rows_a_joint * (joints.size() + tree_joints), most_closure_rows));
+        range.row_room = static_cast<std::uint32_t>(std::min<std::size_t>(
+            rows_a_joint * (joints.size() + tree_joints) + pin_rows, most_closure_rows));
         range.first_row = static_cast<std::uint32_t>(scene_.closure_rows.size());
         range.first_entry = static_cast<std::uint32_t>(scene_.closure_matrix.size());
         // Within their room.
@@ -184,6 +225,18 @@ private:
         Joint& joint = scene_.joints[index];
         joint.in_tree = joint.closes_loop = joint.turns_in_tree = true;
         scene_.closures.push_reserved(closure_of(index, Closure::Kind::closing));
+    }
+
+    void add_pin(std::uint32_t index) {
+        Attachment& attachment = scene_.attachments[index];
+        attachment.holds_in_tree = true;
+        const std::uint32_t body = attachment.description.other;
+        Closure closure{};
+        closure.kind = Closure::Kind::pin;
+        closure.index = index;
+        closure.a = {body, no_tree, {}}; // where the particle is
+        closure.b = {body, tree_of(body), {}};
+        scene_.closures.push_reserved(closure);
     }
 
     // What their joints turn is solved with them, and so are their limits. How many joints they have.
@@ -294,6 +347,9 @@ private:
 } // namespace
 
 void find_closures(RigidScene& scene) {
+    for (Attachment& attachment : scene.attachments) {
+        attachment.holds_in_tree = false;
+    }
     if (!scene.joints.empty()) {
         ClosureSearch(scene).find();
     }

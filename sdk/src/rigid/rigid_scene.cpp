@@ -27,8 +27,8 @@ RigidScene::RigidScene(const lks_allocator& allocator, const TreeKernels& tree_k
       contact_marks(allocator), contacts_act(allocator), contact_moves(allocator), next_memories(allocator),
       islands(allocator), tree_roots(allocator), tree_links(allocator), tree_bodies(allocator),
       tree_joints(allocator), articulated(allocator), trees(allocator), held_joints(allocator),
-      uneven_joints(allocator), foot_contacts(allocator), closing_joints(allocator), closures(allocator),
-      closure_rows(allocator), closure_ranges(allocator), closure_matrix(allocator),
+      uneven_joints(allocator), foot_contacts(allocator), closing_joints(allocator), tree_pins(allocator),
+      closures(allocator), closure_rows(allocator), closure_ranges(allocator), closure_matrix(allocator),
       closure_tree_joints(allocator), figures(allocator), figure_parts(allocator), figure_ranges(allocator),
       figure_bundles(allocator), wide_bodies(allocator), wide_joints(allocator), shared_contacts(allocator),
       figure_shares(allocator), substep_motions(allocator), predicted_speeds(allocator),
@@ -83,14 +83,13 @@ bool RigidScene::reserve(std::size_t body_count, std::size_t collider_count) {
 }
 
 bool RigidScene::reserve_joints(std::size_t count) {
-    const bool done =
-        joint_slots.reserve(count) && joints.reserve(count) && loaded_joints.reserve(count) &&
-        jointed.reserve(count) && tree_links.reserve(2 * count) && tree_joints.reserve(count) &&
-        held_joints.reserve(count) && uneven_joints.reserve(count) && trees.reserve(2 * count) &&
-        closing_joints.reserve(count) && closures.reserve(closure_room(count)) &&
-        closure_rows.reserve(standing_rows_a_joint * count) && closure_ranges.reserve(count) &&
-        closure_tree_joints.reserve(count) && closure_matrix.reserve(greatest_closure_entries(count)) &&
-        wide_joints.reserve(wide_room(count)) && reserve_figures(body_room_, count, attachment_room_);
+    const bool done = joint_slots.reserve(count) && joints.reserve(count) && loaded_joints.reserve(count) &&
+                      jointed.reserve(count) && tree_links.reserve(2 * count) && tree_joints.reserve(count) &&
+                      held_joints.reserve(count) && uneven_joints.reserve(count) &&
+                      trees.reserve(2 * count) && closing_joints.reserve(count) &&
+                      closure_ranges.reserve(count) && closure_tree_joints.reserve(count) &&
+                      reserve_closures(count, attachment_room_) && wide_joints.reserve(wide_room(count)) &&
+                      reserve_figures(body_room_, count, attachment_room_);
     joint_room_ = done ? std::max(joint_room_, count) : joint_room_;
     return done;
 }
@@ -101,8 +100,9 @@ bool RigidScene::reserve_attachments(std::size_t count) {
     // Particles tied to particles are stepped here, too, with no body in the world.
     const bool done = attachment_slots.reserve(count) && attachments.reserve(count) && held.reserve(count) &&
                       loaded_attachments.reserve(count) && rope_loads.reserve(count) &&
-                      particle_loads.reserve(count) && reserve_figures(body_room_, joint_room_, count) &&
-                      reserve(body_room_, collider_room_);
+                      particle_loads.reserve(count) && tree_pins.reserve(count) &&
+                      reserve_closures(joint_room_, count) &&
+                      reserve_figures(body_room_, joint_room_, count) && reserve(body_room_, collider_room_);
     attachment_room_ = done ? attachment_room_ : before;
     return done;
 }
@@ -114,6 +114,14 @@ bool RigidScene::reserve_objects(std::size_t count) {
         is_coupled.reserve(count) && coupled.reserve(count) && reserve(body_room_, collider_room_);
     object_room_ = done ? object_room_ : before;
     return done;
+}
+
+bool RigidScene::reserve_closures(std::size_t joint_count, std::size_t attachment_count) {
+    // What holds a figure holds one that has joints.
+    const std::size_t pins = joint_count == 0 ? 0 : attachment_count;
+    return closures.reserve(closure_room(joint_count) + pins) &&
+           closure_rows.reserve(greatest_closure_rows(joint_count, pins)) &&
+           closure_matrix.reserve(greatest_closure_entries(greatest_closure_rows(joint_count, pins)));
 }
 
 // A contact may belong to two of them.

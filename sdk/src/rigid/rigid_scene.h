@@ -128,6 +128,7 @@ struct RigidScene {
     Array<std::uint64_t> foot_contacts; // figure << 32 | contact, ascending (rigid/light_feet.h)
     // Of rigid/closures.h.
     Array<std::uint64_t> closing_joints; // figure << 32 | joint, ascending
+    Array<std::uint64_t> tree_pins;      // figure << 32 | attachment, ascending
     Array<Closure> closures;             // figure by figure: what closes loops, and trees' joints with limits
     Array<ClosureRow> closure_rows;      // room for those of each figure
     Array<ClosureRange> closure_ranges;  // of figures that have any, ascending
@@ -207,6 +208,7 @@ struct RigidScene {
 private:
     // Of bodies, or joints, side by side.
     std::size_t wide_room(std::size_t count) const;
+    [[nodiscard]] bool reserve_closures(std::size_t joint_count, std::size_t attachment_count);
     [[nodiscard]] bool reserve_figures(std::size_t body_count, std::size_t joint_count,
                                        std::size_t attachment_count);
 
