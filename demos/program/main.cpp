@@ -135,12 +135,16 @@ private:
         CLI::Option* parts =
             command->add_option("PART", bench_options_.parts, "Workloads and sections; see --list");
         command
-            ->add_option("--rounds", bench_options_.rounds,
-                         "How often each is measured, for medians: 21, or fewer where it takes long")
+            ->add_option(
+                "--rounds", bench_options_.rounds,
+                "How often each is measured, for medians: 21, or fewer where it takes long. "
+                "Below 21 ragdolls_* and ropes_swing take three ticks a round instead of their whole "
+                "motion")
             ->check(CLI::Range(1u, 100000u));
         command
             ->add_option("--report", bench_options_.report,
-                         "Everything, and report.md, results.json, results.csv and plots in this folder")
+                         "Measures everything, some minutes, and writes report.md, results.json, results.csv "
+                         "and plots into this folder")
             ->check(check_not_empty);
         command->add_flag("--list", bench_options_.list, "What can be measured")->excludes(parts);
         command->add_flag("--json", bench_options_.json, "As JSON");

@@ -6,8 +6,16 @@
 namespace lks_demo {
 namespace {
 
-// The optimal string alignment distance, by rows.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
+std::string in_small_letters(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return text;
+}
+
+// The optimal string alignment distance, by rows; capital letters are as small ones.
+std::size_t edit_distance(const std::string& wanted, const std::string& name) {
+    const std::string a = in_small_letters(wanted);
+    const std::string b = in_small_letters(name);
     std::vector<std::size_t> before_last;
     std::vector<std::size_t> last;
     std::vector<std::size_t> row(b.size() + 1);

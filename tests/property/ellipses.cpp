@@ -82,6 +82,36 @@ double greatest_gain(double x, double z, int soft, unsigned substeps, std::uint6
 
 } // namespace
 
+TEST_CASE("a swing is read towards both axes of a's frame, whatever the twist and wherever a is turned") {
+    World world(weightless(8));
+    lks_body_def def = lks_default_body_def();
+    def.transform.rotation = about(1, 2, 3, 50);
+    const lks_body_id base = add_body(world, ball_shape(0.1), {}, def);
+    for (const double twist : {0., 70.}) {
+        for (const double swing : {0., 0.01, 30., 90., 179.}) {
+            for (const double azimuth : {0., 25., 90., 200., -45.}) {
+                // From local y towards x at an azimuth of 0, and towards z at 90.
+                const lks_rotation turn =
+                    product(about(std::sin(azimuth * degree), 0, -std::cos(azimuth * degree), swing),
+                            about(0, 1, 0, twist));
+                def.transform.rotation = product(product(about(1, 2, 3, 50), about(0, 0, 1, 20)), turn);
+                const lks_body_id body = add_body(world, ball_shape(0.1), {}, def);
+                lks_joint_def joint = lks_default_joint_def();
+                joint.frame_a.rotation = about(0, 0, 1, 20);
+                const lks_joint_id id = add_joint(world, joint, base, body);
+                lks_fixed x = 0, z = 0;
+                REQUIRE(lks_joint_swing(world, id, &x, &z) == LKS_OK);
+                INFO(swing << " degrees towards " << azimuth << ", twisted by " << twist);
+                CHECK(std::abs(metres(x) - swing * std::cos(azimuth * degree)) < 1e-3 + 2e-5 * swing);
+                CHECK(std::abs(metres(z) - swing * std::sin(azimuth * degree)) < 1e-3 + 2e-5 * swing);
+                REQUIRE(lks_joint_swing(world, id, nullptr, nullptr) == LKS_OK);
+                REQUIRE(lks_world_remove_body(world, body) == LKS_OK);
+                CHECK(lks_joint_swing(world, id, &x, &z) == LKS_ERROR_STALE_ID);
+            }
+        }
+    }
+}
+
 TEST_CASE("what leans on an ellipse slides along its edge to where it is lowest" *
           doctest::skip(support::sanitised)) {
     for (const unsigned substeps : {4u, 20u}) {

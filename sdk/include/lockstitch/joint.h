@@ -126,6 +126,10 @@ LKS_API lks_result lks_joint_error(const lks_world* world, lks_joint_id joint, l
  * be null. */
 LKS_API lks_result lks_joint_angles(const lks_world* world, lks_joint_id joint, lks_fixed* swing,
                                     lks_fixed* twist);
+/* The swing as swing_limit and swing_limit_z bound it: how far b's axis has swung towards local x, and z, of
+ * a's frame. Degrees, -180 .. 180; their squares add up to the swing's. At 180 all of it is towards x. Either
+ * may be null. */
+LKS_API lks_result lks_joint_swing(const lks_world* world, lks_joint_id joint, lks_fixed* x, lks_fixed* z);
 /* What the joint does to body b, in world axes: newtons at the points, and newton metres; the mean over the
  * last tick in which it was awake. a gets the opposite. Saturates at ±8,388,607. Either may be null. */
 LKS_API lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lks_vec3* force,

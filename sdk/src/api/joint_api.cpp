@@ -242,6 +242,22 @@ lks_result lks_joint_angles(const lks_world* world, lks_joint_id joint, lks_fixe
     return LKS_OK;
 }
 
+lks_result lks_joint_swing(const lks_world* world, lks_joint_id joint, lks_fixed* x, lks_fixed* z) {
+    if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
+        return result;
+    }
+    const Joint& found = world->rigid.joints[joint.index];
+    const JointBodies bodies = bodies_of(*world, found);
+    const SwingParts parts = swing_parts(found, bodies.a, bodies.b);
+    if (x != nullptr) {
+        *x = to_degrees(parts.x);
+    }
+    if (z != nullptr) {
+        *z = to_degrees(parts.z);
+    }
+    return LKS_OK;
+}
+
 lks_result lks_joint_load(const lks_world* world, lks_joint_id joint, lks_vec3* force, lks_vec3* torque) {
     if (const lks_result result = require_joint(world, joint); result != LKS_OK) {
         return result;

@@ -222,5 +222,11 @@ struct JointAngles {
     std::int64_t twist;
 };
 JointAngles joint_angles(const Joint& joint, const Body& a, const Body& b);
+// The swing as a vector (rigid/swing_ellipse.h): towards local x and z of a's frame.
+struct SwingParts {
+    std::int64_t x;
+    std::int64_t z;
+};
+SwingParts swing_parts(const Joint& joint, const Body& a, const Body& b);
 
 } // namespace lks

@@ -70,4 +70,17 @@ JointAngles joint_angles(const Joint& joint, const Body& a, const Body& b) {
     return {fixed::angle_of(apart ? way.length : 0, fixed::dot(u, v)), 2 * fixed::angle_of(q.y, q.w)};
 }
 
+SwingParts swing_parts(const Joint& joint, const Body& a, const Body& b) {
+    const std::int64_t swing = joint_angles(joint, a, b).swing;
+    const Direction v = axes_of(joint, a, b).b;
+    const auto across = [&](int axis) {
+        return std::int64_t{fixed::dot(fixed::rotate(a.rotation, joint.constants.across_a[axis]), v)};
+    };
+    fixed::NormalisedVector way{};
+    if (!fixed::normalise(fixed::Vec3{across(0), across(1), 0}, way)) {
+        return {swing, 0}; // none, or all the way round
+    }
+    return {fixed::scale_component(way.direction.x, swing), fixed::scale_component(way.direction.y, swing)};
+}
+
 } // namespace lks
