@@ -32,7 +32,7 @@ extern "C" {
 
 /* Raised whenever the same inputs would give other bits than before. Golden states and saved images
  * name it, and an image of another solver version is refused. */
-#define LKS_SOLVER_VERSION 44
+#define LKS_SOLVER_VERSION 45
 
 /* What a call says. Every call that fails leaves everything as it was. */
 typedef enum lks_result {

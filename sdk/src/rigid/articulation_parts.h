@@ -33,7 +33,8 @@ struct ArticulatedBody {
     std::uint32_t pins;      // particles that do not move and that it is attached to (rigid/closures.h)
     bool pinned;             // at some that can't be solved with its tree
     bool has_points;         // joints that hold points of it, while closures are found
-    bool touches;            // what does not move, while light feet are found
+    bool touches;            // what bears it, while light feet are found
+    bool bears_feet;         // alone, of a tree that stands
     bool tree_has_anchor;    // of the root: a joint of its solve holds it on what does not move
     std::uint32_t incoming;  // the joint of tree_joints by which it hangs on its parent; of the root none
     HeavySides heavy;        // while trees are found

@@ -126,28 +126,23 @@ bool ClosureRows::is_near_point(const Closure& closure, std::uint32_t point) con
     return is_near_foot_point(contact, contact.points[point], foot_bodies(closure));
 }
 
-// In the unit of the body that moves.
-Vec3 ClosureRows::foot_lever_of(const Closure& closure, std::uint32_t point) const {
+// In the units of the bodies that move.
+void ClosureRows::place_levers_of_foot(Closure& closure, std::uint32_t point) const {
     const Contact& contact = contact_of(closure);
-    const bool of_a = closure.a.tree != no_tree;
-    return arm_in_units(of_a ? body_a(closure) : body_b(closure),
-                        foot_lever(contact, contact.points[point], foot_bodies(closure), of_a));
-}
-
-ClosureRows::FootPush ClosureRows::pushed_by_foot(const Closure& closure, std::uint32_t point,
-                                                  const Vec3& push) const {
-    const bool of_a = closure.a.tree != no_tree;
-    FootPush pushed{of_a ? closure.a : closure.b, of_a ? -push : push};
-    pushed.side.lever = foot_lever_of(closure, point);
-    return pushed;
+    for (ClosureSide* side : {&closure.a, &closure.b}) {
+        if (side->tree != no_tree) {
+            const bool of_a = side == &closure.a;
+            side->lever = arm_in_units(scene_.bodies[side->body], foot_lever(contact, contact.points[point],
+                                                                             foot_bodies(closure), of_a));
+        }
+    }
 }
 
 void ClosureRows::place_foot(Closure& closure) {
     const Contact& contact = contact_of(closure);
-    ClosureSide& side = closure.a.tree != no_tree ? closure.a : closure.b;
     for (std::uint32_t i = 0; i < contact.count; ++i) {
         if (is_near_point(closure, i)) {
-            side.lever = foot_lever_of(closure, i);
+            place_levers_of_foot(closure, i);
             add(closure, ClosureRow::Kind::contact, contact.normal()).point = static_cast<std::uint8_t>(i);
         }
     }

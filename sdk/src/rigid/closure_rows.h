@@ -42,13 +42,16 @@ public:
     // use(side, push at its lever): of each point that pushed in the substep before, in the body's own unit.
     template <typename Use>
     void for_each_foot_push(const Use& use) {
-        for_each([&](const Closure& closure) {
+        for_each([&](Closure& closure) {
             for (std::uint32_t i = 0; i < feet_points(closure); ++i) {
                 const Contact& contact = contact_of(closure);
                 if (contact.points[i].active && contact.points[i].push.normal != 0) {
-                    const auto [side, push] =
-                        pushed_by_foot(closure, i, pushed_at(contact, contact.points[i]));
-                    use(side, push);
+                    place_levers_of_foot(closure, i);
+                    const fixed::Vec3 push = pushed_at(contact, contact.points[i]);
+                    for_each_side(closure, [&](const ClosureSide& side, bool is_a) {
+                        use(side, is_a ? -fixed::scaled(contact.shares.a, push)
+                                       : fixed::scaled(contact.shares.b, push));
+                    });
                 }
             }
         });
@@ -90,12 +93,7 @@ private:
     std::uint32_t feet_points(const Closure& closure) const {
         return closure.kind == Closure::Kind::foot ? contact_of(closure).count : 0;
     }
-    struct FootPush {
-        ClosureSide side; // its lever is the point's
-        fixed::Vec3 push;
-    };
-    FootPush pushed_by_foot(const Closure& closure, std::uint32_t point, const fixed::Vec3& push) const;
-    fixed::Vec3 foot_lever_of(const Closure& closure, std::uint32_t point) const;
+    void place_levers_of_foot(Closure& closure, std::uint32_t point) const;
     bool is_near_point(const Closure& closure, std::uint32_t point) const;
 
     std::uint32_t rows_to_close(const Closure& closure) const;

@@ -182,26 +182,31 @@ private:
 
     // How many of its feet.
     std::size_t foot_room(Found joints, Found feet, std::size_t rows) const {
-        std::size_t beside = 0; // of the least tree that stands
+        std::size_t beside = SIZE_MAX; // of the least tree that stands
         for (const std::uint64_t* foot = feet.first; foot != feet.end; ++foot) {
-            const std::size_t its = joints_beside(foot_body(static_cast<std::uint32_t>(*foot)));
-            beside = foot == feet.first ? its : std::min(beside, its);
+            const std::size_t its = joints_beside_foot(static_cast<std::uint32_t>(*foot));
+            beside = its != 0 ? std::min(beside, its) : beside;
+        }
+        if (beside == SIZE_MAX) {
+            return 0;
         }
         const std::size_t all = (standing_rows_a_joint - closure_rows_a_joint) * (joints.size() + beside);
         return std::min<std::size_t>(all, most_closure_rows - rows) / greatest_point_count;
     }
-    std::uint32_t foot_body(std::uint32_t contact) const {
+    std::size_t joints_beside_foot(std::uint32_t contact) const {
         const ContactKey& key = scene_.contacts[contact].key;
-        return body(key.body_a).is_awake() ? key.body_a : key.other;
+        return std::max(joints_beside(key.body_a),
+                        key.other < other_is_collider ? joints_beside(key.other) : 0);
     }
     // Contacts keep colliders as others; what does not move is never looked at.
     Closure foot_of(std::uint32_t contact) {
-        const std::uint32_t foot = foot_body(contact);
+        const ContactKey& key = scene_.contacts[contact].key;
         Closure closure{};
         closure.kind = Closure::Kind::foot;
         closure.index = contact;
-        closure.a = closure.b = {foot, no_tree, {}};
-        (foot == scene_.contacts[contact].key.body_a ? closure.a : closure.b).tree = tree_of(foot);
+        closure.a = {key.body_a, tree_of(key.body_a), {}};
+        closure.b = key.other < other_is_collider ? ClosureSide{key.other, tree_of(key.other), {}}
+                                                  : ClosureSide{key.body_a, no_tree, {}};
         return closure;
     }
 

@@ -1,6 +1,8 @@
 #include "rigid/light_feet.h"
 
 #include "memory/sort_numbers.h"
+#include "rigid/body_roots.h"
+#include "rigid/figures.h"
 #include "rigid/joint_drive.h"
 
 namespace lks {
@@ -10,44 +12,119 @@ namespace {
 constexpr std::int64_t light_ratio = 3;
 // What turns freely, as wheels do: an eighth of what leans on it.
 constexpr std::int64_t wheel_ratio = 8;
+constexpr std::uint32_t nothing = UINT32_MAX;
 
 class LightFeet {
 public:
-    explicit LightFeet(RigidScene& scene) : scene_(scene) {}
+    LightFeet(RigidScene& scene, const fixed::Vec3& gravity) : scene_(scene), gravity_(gravity) {}
 
-    void find() {
+    bool find() {
         for (ArticulatedBody& body : scene_.articulated) {
-            body.touches = false;
+            body.touches = body.bears_feet = false;
         }
-        for_each_touch(
-            [this](std::uint32_t, std::uint32_t body) { scene_.articulated[body].touches = true; });
+        for_each_touch([this](std::uint32_t, std::uint32_t body, std::uint32_t) {
+            scene_.articulated[body].touches = true;
+        });
         for (ArticulatedTree& tree : scene_.trees) {
             tree.stands = stands(tree);
         }
-        for_each_touch([this](std::uint32_t contact, std::uint32_t body) {
-            if (scene_.trees[scene_.articulated[body].tree].stands) {
-                scene_.foot_contacts.push_reserved(std::uint64_t{scene_.figures[body]} << 32 | contact);
+        const bool any_bears = find_bearers();
+        if (any_bears) {
+            join_with_bearers();
+        }
+        for_each_foot([this](std::uint32_t contact, std::uint32_t body, std::uint32_t bearer) {
+            if (bearer == nothing || scene_.articulated[bearer].bears_feet) {
+                add(contact, body);
             }
         });
+        for (std::uint32_t i = 0; i < scene_.contacts.size(); ++i) {
+            const std::uint32_t body = body_on_still(i);
+            if (body != nothing && scene_.articulated[body].bears_feet) {
+                add(i, body);
+            }
+        }
         sort_numbers(scene_.foot_contacts, scene_.sorting);
+        return any_bears;
     }
 
 private:
-    // use(contact, body): of one of a tree with what does not move.
+    void add(std::uint32_t contact, std::uint32_t body) {
+        scene_.foot_contacts.push_reserved(std::uint64_t{scene_.figures[body]} << 32 | contact);
+    }
+
+    // The one that moves, of a contact with what doesn't.
+    std::uint32_t body_on_still(std::uint32_t contact) const {
+        const ContactKey& key = scene_.contacts[contact].key;
+        const bool a_moves = scene_.bodies[key.body_a].is_awake();
+        const bool b_moves = key.other < other_is_collider && scene_.bodies[key.other].is_awake();
+        return a_moves == b_moves ? nothing : a_moves ? key.body_a : key.other;
+    }
+    bool is_alone(std::uint32_t body) const {
+        return scene_.articulated[body].tree == no_tree && !scene_.bodies[body].jointed;
+    }
+    // By at least half of what it pushes.
+    bool lifts(const Contact& contact, bool a) const {
+        const std::int64_t along = fixed::dot(contact.normal(), gravity_); // towards b
+        return 2 * (a ? along : -along) > static_cast<std::int64_t>(fixed::length(gravity_));
+    }
+
+    // use(contact, body, bearer): of one of a tree with what does not move, or with a body by itself that
+    // bears it.
     template <typename Use>
     void for_each_touch(const Use& use) const {
         for (std::uint32_t i = 0; i < scene_.contacts.size(); ++i) {
-            const ContactKey& key = scene_.contacts[i].key;
-            const bool is_collider = key.other >= other_is_collider;
-            const bool a_moves = scene_.bodies[key.body_a].is_awake();
-            const bool b_moves = !is_collider && scene_.bodies[key.other].is_awake();
-            if (a_moves == b_moves) {
+            const Contact& contact = scene_.contacts[i];
+            const ContactKey& key = contact.key;
+            const std::uint32_t body = body_on_still(i);
+            if (body != nothing) {
+                if (scene_.articulated[body].tree != no_tree) {
+                    use(i, body, nothing);
+                }
                 continue;
             }
-            const std::uint32_t body = a_moves ? key.body_a : key.other;
-            if (scene_.articulated[body].tree != no_tree) {
-                use(i, body);
+            if (key.other >= other_is_collider || !scene_.bodies[key.body_a].is_awake()) {
+                continue;
             }
+            if (scene_.articulated[key.body_a].tree != no_tree && is_alone(key.other) &&
+                lifts(contact, true)) {
+                use(i, key.body_a, key.other);
+            } else if (scene_.articulated[key.other].tree != no_tree && is_alone(key.body_a) &&
+                       lifts(contact, false)) {
+                use(i, key.other, key.body_a);
+            }
+        }
+    }
+    template <typename Use>
+    void for_each_foot(const Use& use) const {
+        for_each_touch([&](std::uint32_t contact, std::uint32_t body, std::uint32_t bearer) {
+            if (scene_.trees[scene_.articulated[body].tree].stands) {
+                use(contact, body, bearer);
+            }
+        });
+    }
+
+    // As many as joints at most.
+    bool find_bearers() {
+        std::size_t count = 0;
+        for_each_foot([&](std::uint32_t, std::uint32_t, std::uint32_t bearer) {
+            if (bearer != nothing && !scene_.articulated[bearer].bears_feet && count < scene_.joints.size()) {
+                scene_.articulated[bearer].bears_feet = true;
+                ++count;
+            }
+        });
+        return count != 0;
+    }
+    // In this tick they are one figure.
+    void join_with_bearers() {
+        BodyRoots roots(scene_, scene_.figures);
+        roots.join_by_joints();
+        for_each_foot([&](std::uint32_t, std::uint32_t body, std::uint32_t bearer) {
+            if (bearer != nothing && scene_.articulated[bearer].bears_feet) {
+                roots.join(body, bearer);
+            }
+        });
+        for (std::uint32_t i = 0; i < scene_.bodies.size(); ++i) {
+            scene_.figures[i] = roots.root(i);
         }
     }
 
@@ -96,15 +173,14 @@ private:
     }
 
     RigidScene& scene_;
+    fixed::Vec3 gravity_;
 };
 
 } // namespace
 
-void find_light_feet(RigidScene& scene) {
+bool find_light_feet(RigidScene& scene, const fixed::Vec3& gravity) {
     scene.foot_contacts.clear();
-    if (!scene.trees.empty()) {
-        LightFeet(scene).find();
-    }
+    return !scene.trees.empty() && LightFeet(scene, gravity).find();
 }
 
 } // namespace lks

@@ -86,7 +86,7 @@ bool RigidScene::reserve_joints(std::size_t count) {
     const bool done = joint_slots.reserve(count) && joints.reserve(count) && loaded_joints.reserve(count) &&
                       jointed.reserve(count) && tree_links.reserve(2 * count) && tree_joints.reserve(count) &&
                       held_joints.reserve(count) && uneven_joints.reserve(count) &&
-                      trees.reserve(2 * count) && closing_joints.reserve(count) &&
+                      trees.reserve(3 * count) && closing_joints.reserve(count) &&
                       closure_ranges.reserve(count) && closure_tree_joints.reserve(count) &&
                       reserve_closures(count, attachment_room_) && wide_joints.reserve(wide_room(count)) &&
                       reserve_figures(body_room_, count, attachment_room_);
@@ -127,9 +127,10 @@ bool RigidScene::reserve_closures(std::size_t joint_count, std::size_t attachmen
 // A contact may belong to two of them.
 bool RigidScene::reserve_figures(std::size_t body_count, std::size_t joint_count,
                                  std::size_t attachment_count) {
-    // As many trees as joints at most, and of bodies that only distances hold one more each.
+    // As many trees as joints at most, and of bodies that only distances hold, or that bear figures, one more
+    // each.
     const std::size_t parts =
-        body_count + 3 * joint_count + attachment_count + 2 * contact_capacity(body_count);
+        body_count + 4 * joint_count + attachment_count + 2 * contact_capacity(body_count);
     return figure_parts.reserve(parts) && figure_ranges.reserve(body_count) &&
            sorting.reserve(std::max(parts, pair_capacity(body_count)));
 }

@@ -49,7 +49,7 @@ public:
             static_cast<void>(scene_.contact_marks.resize(scene_.contacts.size())); // within its room
         }
         find_articulations(scene_);
-        find_light_feet(scene_);
+        const bool joined = find_light_feet(scene_, world_.gravity);
         find_closures(scene_);
         find_figures(scene_);
         find_bundles(scene_);
@@ -61,6 +61,10 @@ public:
         }
         for_each_joint([](Joint& joint) { find_motor_aim(joint); });
         run_substeps();
+        if (joined) {
+            join_figures(scene_);
+        }
+        part_figures(scene_, world_.rate);
         finish();
     }
 
@@ -146,7 +150,6 @@ private:
             rigid_substep.run(substep);
         }
         forget_rope_loads(world_);
-        part_figures(scene_, world_.rate);
     }
 
     void finish() {
