@@ -12,6 +12,9 @@
  * that are swept, on cloth and between ropes a body falls off that weighs too much: in a substep it parts
  * from its vertex by what it falls times its mass over the vertex's.
  *
+ * A pinned vertex holds a figure as a joint to what stands does, and leads it: solved together with its
+ * joints, up to three vertices a body and twelve a figure; what else holds it is solved by itself.
+ *
  * Method: extended position based dynamics (Macklin et al. 2016, eq. 26), in all three directions at once.
  */
 #ifndef LOCKSTITCH_ATTACHMENT_H

@@ -248,12 +248,12 @@ lks_result lks_joint_swing(const lks_world* world, lks_joint_id joint, lks_fixed
     }
     const Joint& found = world->rigid.joints[joint.index];
     const JointBodies bodies = bodies_of(*world, found);
-    const SwingParts parts = swing_parts(found, bodies.a, bodies.b);
+    const SwingParts swung = swing_parts(found, bodies.a, bodies.b);
     if (x != nullptr) {
-        *x = to_degrees(parts.x);
+        *x = to_degrees(swung.x);
     }
     if (z != nullptr) {
-        *z = to_degrees(parts.z);
+        *z = to_degrees(swung.z);
     }
     return LKS_OK;
 }
