@@ -336,6 +336,46 @@ TEST_CASE("who stands on a crate in flight moves it as much as it moves itself")
     }
 }
 
+// Whether they hold or not.
+TEST_CASE("a figure may step on what is thin, long, tiny, light or heavy") {
+    const lks_body_shape shapes[] = {box_shape(20, 0.005, 0.05), box_shape(0.15, 0.002, 0.15),
+                                     box_shape(30, 0.002, 30),   capsule_shape(0.01, 25),
+                                     ball_shape(0.01),           ball_shape(15)};
+    for (const lks_body_shape& shape : shapes) {
+        for (const double mass : {0.001, 1., 1e5}) {
+            for (const std::uint32_t substeps : {4u, 20u}) {
+                if (sanitised && substeps != 4) {
+                    continue;
+                }
+                World world(world_def(60, substeps));
+                add_ground(world);
+                lks_body_def def = lks_default_body_def();
+                def.mass = fixed(mass);
+                const double half =
+                    shape.shape == LKS_SHAPE_BOX ? metres(shape.half_extents.y) : metres(shape.radius);
+                def.transform.rotation =
+                    shape.shape == LKS_SHAPE_CAPSULE ? about(0, 0, 1, 90) : about(0, 1, 0, 0);
+                add_body(world, shape, fixed(0.095, half, 0.05), def);
+                Figure figure(world, false);
+                figure.def.transform.position = fixed(0, 2 * half + 0.01, 0);
+                figure.add(1, 0.05);
+                double fastest = 0;
+                for (int tick = 0; tick < 120; ++tick) {
+                    world.step();
+                    for (const lks_body_id body : figure.bodies) {
+                        const auto v = state_of(world, body).velocity;
+                        fastest = std::max(fastest, std::hypot(v.x, v.y, v.z));
+                    }
+                }
+                INFO("shape " << shape.shape << ", " << half << " m, " << mass << " kg, " << substeps
+                              << " substeps: " << fastest << " m/s, " << 1e3 * figure.apart() << " mm apart");
+                CHECK(fastest < 25);
+                CHECK(figure.apart() < 1e-2);
+            }
+        }
+    }
+}
+
 TEST_CASE("figures that stand go on as they were saved") {
     for (const bool spider : {false, true}) {
         World world(world_def(60, 8));

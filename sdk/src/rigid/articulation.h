@@ -27,6 +27,8 @@ namespace lks {
 void find_articulations(RigidScene& scene);
 // Its points are near enough to its bodies, and not too soft, and no spring holds what it turns.
 bool fits_trees(const RigidScene& scene, const Joint& joint);
+// A body's point is near enough, and the body not too thin.
+bool fits_trees(const Body& body, const fixed::Vec3& point);
 // What it is attached to does not move, is near enough and not too soft.
 bool fits_trees(const RigidScene& scene, const Attachment& attachment);
 // For solves of more than 32 fraction bits: its bodies' inverse masses (ArticulatedBody::fine_share).

@@ -53,11 +53,6 @@ int doublings_to(const Body& body, const Vec3& point) {
     return doublings;
 }
 
-bool is_near(const Body& body, const Vec3& point) {
-    return !body.is_awake() || (body.inverse_shift <= greatest_inverse_shift &&
-                                2 * doublings_to(body, point) <= greatest_inverse_shift - body.inverse_shift);
-}
-
 class Trees {
 public:
     explicit Trees(RigidScene& scene) : scene_(scene), roots_(scene, scene.tree_roots) {}
@@ -364,13 +359,18 @@ void find_fine_shares(RigidScene& scene, const ArticulatedTree& tree) {
     }
 }
 
+bool fits_trees(const Body& body, const Vec3& point) {
+    return !body.is_awake() || (body.inverse_shift <= greatest_inverse_shift &&
+                                2 * doublings_to(body, point) <= greatest_inverse_shift - body.inverse_shift);
+}
+
 bool fits_trees(const RigidScene& scene, const Joint& joint) {
     const JointDescription& d = joint.description;
     const Body& a = scene.bodies[d.body_a];
     const Body& b = scene.bodies[d.body_b];
     return joint.constants.points.softness <= greatest_tree_softness &&
-           joint.constants.angular_softness == 0 && (a.is_awake() || b.is_awake()) && is_near(a, d.point_a) &&
-           is_near(b, d.point_b);
+           joint.constants.angular_softness == 0 && (a.is_awake() || b.is_awake()) &&
+           fits_trees(a, d.point_a) && fits_trees(b, d.point_b);
 }
 
 bool fits_trees(const RigidScene& scene, const Attachment& attachment) {
@@ -378,7 +378,7 @@ bool fits_trees(const RigidScene& scene, const Attachment& attachment) {
     return d.kind == LKS_ATTACHMENT_TO_BODY && !attachment.constants.moves_particle() &&
            scene.bodies[d.other].is_awake() &&
            attachment.constants.softness.softness <= greatest_tree_softness &&
-           is_near(scene.bodies[d.other], d.point);
+           fits_trees(scene.bodies[d.other], d.point);
 }
 
 void find_articulations(RigidScene& scene) {

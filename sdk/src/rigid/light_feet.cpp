@@ -1,6 +1,9 @@
 #include "rigid/light_feet.h"
 
+#include <algorithm>
+
 #include "memory/sort_numbers.h"
+#include "rigid/articulation.h"
 #include "rigid/body_roots.h"
 #include "rigid/figures.h"
 #include "rigid/joint_drive.h"
@@ -59,8 +62,14 @@ private:
         const bool b_moves = key.other < other_is_collider && scene_.bodies[key.other].is_awake();
         return a_moves == b_moves ? nothing : a_moves ? key.body_a : key.other;
     }
-    bool is_alone(std::uint32_t body) const {
-        return scene_.articulated[body].tree == no_tree && !scene_.bodies[body].jointed;
+    // A body without joints, which a tree's numbers hold.
+    bool may_bear(const Contact& contact, bool a) const {
+        const std::uint32_t index = a ? contact.key.body_a : contact.key.other;
+        const Body& body = scene_.bodies[index];
+        return scene_.articulated[index].tree == no_tree && !body.jointed &&
+               std::all_of(contact.points, contact.points + contact.count, [&](const ContactPoint& point) {
+                   return fits_trees(body, a ? point.core_a : point.core_b);
+               });
     }
     // By at least half of what it pushes.
     bool lifts(const Contact& contact, bool a) const {
@@ -85,10 +94,10 @@ private:
             if (key.other >= other_is_collider || !scene_.bodies[key.body_a].is_awake()) {
                 continue;
             }
-            if (scene_.articulated[key.body_a].tree != no_tree && is_alone(key.other) &&
+            if (scene_.articulated[key.body_a].tree != no_tree && may_bear(contact, false) &&
                 lifts(contact, true)) {
                 use(i, key.body_a, key.other);
-            } else if (scene_.articulated[key.other].tree != no_tree && is_alone(key.body_a) &&
+            } else if (scene_.articulated[key.other].tree != no_tree && may_bear(contact, true) &&
                        lifts(contact, false)) {
                 use(i, key.other, key.body_a);
             }
