@@ -24,9 +24,7 @@ struct Apart {
 class Wearer {
 public:
     Wearer(World& world, double height, double mass) : world_(world) {
-        for (lks_bone& bone : human_.bones) {
-            bone.body.filter.mask &= ~LKS_CATEGORY_PARTICLES;
-        }
+        human_.let_particles_through();
         human_.def.transform.position = fixed(0, height, 0);
         REQUIRE(human_.add(world, bodies_, joints_) == LKS_OK);
         Net net;

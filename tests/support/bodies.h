@@ -81,6 +81,13 @@ struct ReadyFigure {
         return lks_world_add_ragdoll(world, &def, ids == nullptr ? bodies : ids, joints);
     }
 
+    // What is attached to it pulls, and touches nothing.
+    void let_particles_through() {
+        for (lks_bone& bone : bones) {
+            bone.body.filter.mask &= ~LKS_CATEGORY_PARTICLES;
+        }
+    }
+
     lks_bone bones[bone_count];
     lks_body_shape shapes[bone_count];
     lks_ragdoll_def def = lks_default_ragdoll_def();

@@ -20,6 +20,10 @@ InverseMass other_inverse_mass(const AttachmentDescription& d, const AttachmentS
                                  : particle_inverse_mass(*sides.other, d.other_particle);
 }
 
+Vec3 held_point(const AttachmentDescription& d, const Body& body) {
+    return body.position + fixed::rotate(body.rotation, d.point);
+}
+
 void push_apart(const Attachment& attachment, const AttachmentSides& sides, const Vec3& p) {
     const AttachmentDescription& d = attachment.description;
     const PairShares& shares = attachment.constants.shares;
@@ -64,9 +68,8 @@ void move_particle(Object& object, std::uint32_t particle, const Vec3& shift) {
 Vec3 attachment_offset(const Attachment& attachment, const AttachmentSides& sides) {
     const AttachmentDescription& d = attachment.description;
     const Vec3 here = particle_position(sides.object, d.particle);
-    const Vec3 there = sides.body != nullptr
-                           ? sides.body->position + fixed::rotate(sides.body->rotation, d.point)
-                           : particle_position(*sides.other, d.other_particle);
+    const Vec3 there = sides.body != nullptr ? held_point(d, *sides.body)
+                                             : particle_position(*sides.other, d.other_particle);
     return saturating_subtract(there, here);
 }
 
@@ -75,8 +78,8 @@ Vec3 attachment_error(const Attachment& attachment, const AttachmentSides& sides
 }
 
 Vec3 pin_error(const Attachment& attachment, const Body& body) {
-    const Vec3 point = body.position + fixed::rotate(body.rotation, attachment.description.point);
-    return saturating_subtract(saturating_subtract(point, attachment.held_at), attachment.left);
+    return saturating_subtract(
+        saturating_subtract(held_point(attachment.description, body), attachment.held_at), attachment.left);
 }
 
 AttachmentConstants make_attachment_constants(const AttachmentDescription& d, const AttachmentSides& sides,
@@ -138,8 +141,11 @@ void measure_left(Attachment& attachment, const AttachmentSides& sides, const Mo
 void begin_substep(Attachment& attachment, const AttachmentSides& sides) {
     const AttachmentConstants& c = attachment.constants;
     attachment.push = {0, 0, 0};
-    attachment.held_at = particle_position(sides.object, attachment.description.particle);
     attachment.begin = attachment_error(attachment, sides);
+    if (attachment.holds_in_tree) {
+        attachment.held_at = particle_position(sides.object, attachment.description.particle);
+        return;
+    }
     const std::int64_t diagonal = c.softness.softness + c.shares.a + (sides.body == nullptr ? c.shares.b : 0);
     std::int64_t k[6] = {};
     attachment.side = {};

@@ -60,9 +60,10 @@ struct Attachment {
 
     // Of the substep.
     fixed::Vec3 left;    // how far the sides stay apart for now
-    fixed::Vec3 held_at; // where the particle is once it is predicted
+    fixed::Vec3 held_at; // where it holds in a tree: where the particle is once it is predicted
     fixed::Vec3 push;
     fixed::Vec3 begin; // how far they are apart once they are predicted
+    // Not where it holds in a tree.
     BlockSide side;
     BlockInverse inverse;
     std::int64_t body_motion[6]; // by a push at it: the body's part of what `inverse` is of

@@ -105,6 +105,13 @@ std::int64_t greatest_step_of(const Softness& s) {
     return soften(s.softness, greatest_step, greatest_step);
 }
 
+Vec3 left_of(const Softness& s, const Vec3& error, const Vec3& motion, const Vec3& push) {
+    const bool soft = s.softness != 0;
+    Vec3 left = soft ? soften(s, error, motion, push) : error;
+    clamp_vector(left, soft ? greatest_step_of(s) : greatest_step);
+    return left;
+}
+
 bool exceeds(const Vec3& sum, std::int64_t greatest_sum) {
     return greatest_sum != 0 && fixed::length(sum) > static_cast<std::uint64_t>(greatest_sum);
 }
@@ -115,9 +122,7 @@ Scaled force_of_push(const StepRate& rate, const Scaled& greater_inverse_mass) {
 
 Vec3 next_push(const BlockInverse& inverse, const Softness& softness, const Vec3& error, const Vec3& motion,
                const Vec3& push) {
-    Vec3 left = softness.softness != 0 ? soften(softness, error, motion, push) : error;
-    clamp_vector(left, greatest_step_of(softness));
-    Vec3 next = push - solve(inverse, left);
+    Vec3 next = push - solve(inverse, left_of(softness, error, motion, push));
     clamp_vector(next, greatest_push);
     return next;
 }

@@ -48,6 +48,9 @@ fixed::Vec3 soften(const Softness& s, const fixed::Vec3& error, const fixed::Vec
 // How much of that is taken at once: so much that it moves what it pushes as far as a rigid one does. What it
 // gives way by is no error, however far that is.
 std::int64_t greatest_step_of(const Softness& s);
+// What is made up for at once: of a rigid constraint its error, of a soft one what it leaves; within that.
+fixed::Vec3 left_of(const Softness& s, const fixed::Vec3& error, const fixed::Vec3& motion,
+                    const fixed::Vec3& push);
 
 // The most that the pushes of a tick's substeps may add up to where a force, or torque, that pushes by
 // `push_of_one` a substep must not exceed the limit, World; 0: no limit.

@@ -68,11 +68,14 @@ void ClosureRows::place() {
         closure.first_row = range_.row_count;
         closure.row_count = 0;
         closing -= rows_to_close(closure);
-        if (closure.kind == Closure::Kind::foot) {
+        switch (closure.kind) {
+        case Closure::Kind::foot:
             place_foot(closure);
-        } else if (closure.kind == Closure::Kind::pin) {
+            break;
+        case Closure::Kind::pin:
             place_pin(closure);
-        } else {
+            break;
+        default:
             place_joint(closure);
             place_limits(closure, margin, range_.row_room - closing);
         }
@@ -81,13 +84,15 @@ void ClosureRows::place() {
 
 // Of a foot: of its points that are near.
 std::uint32_t ClosureRows::rows_to_close(const Closure& closure) const {
-    if (closure.kind == Closure::Kind::pin) {
+    switch (closure.kind) {
+    case Closure::Kind::closing:
+        return closing_rows(joint_of(closure));
+    case Closure::Kind::pin:
         return closure_rows_a_pin;
+    default:
+        break;
     }
-    if (closure.kind != Closure::Kind::foot) {
-        return closure.kind == Closure::Kind::closing ? closing_rows(joint_of(closure)) : 0;
-    }
-    std::uint32_t rows = 0;
+    std::uint32_t rows = 0; // of limits none
     for (std::uint32_t i = 0; i < feet_points(closure); ++i) {
         rows += is_near_point(closure, i) ? 1u : 0u;
     }
@@ -277,16 +282,12 @@ Vec3 ClosureRows::left_apart_of(const Closure& closure) const {
 Vec3 ClosureRows::left_of_pin(const Closure& closure) const {
     const Attachment& pin = pin_of(closure);
     const Softness& softness = pin.constants.softness;
-    Vec3 left = pin_error(pin, body_b(closure));
-    if (!in_substep_) {
-        clamp_vector(left, greatest_undone);
-        return softness.softness == 0 ? left : Vec3{0, 0, 0};
+    Vec3 apart = pin_error(pin, body_b(closure));
+    if (in_substep_) {
+        return left_of(softness, apart, saturating_subtract(apart, pin.begin), pin.push);
     }
-    if (softness.softness != 0) {
-        left = soften(softness, left, saturating_subtract(left, pin.begin), pin.push);
-    }
-    clamp_vector(left, greatest_step_of(softness));
-    return left;
+    clamp_vector(apart, greatest_undone);
+    return softness.softness == 0 ? apart : Vec3{0, 0, 0};
 }
 
 bool ClosureRows::measure(ClosureUnknown (&unknowns)[most_closure_rows]) {

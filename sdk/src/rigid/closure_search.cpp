@@ -182,13 +182,10 @@ private:
 
     // How many of its feet.
     std::size_t foot_room(Found joints, Found feet, std::size_t rows) const {
-        std::size_t beside = SIZE_MAX; // of the least tree that stands
+        std::size_t beside = 0; // of the least tree that stands
         for (const std::uint64_t* foot = feet.first; foot != feet.end; ++foot) {
             const std::size_t its = joints_beside_foot(static_cast<std::uint32_t>(*foot));
-            beside = its != 0 ? std::min(beside, its) : beside;
-        }
-        if (beside == SIZE_MAX) {
-            return 0;
+            beside = beside == 0 || (its != 0 && its < beside) ? its : beside;
         }
         const std::size_t all = (standing_rows_a_joint - closure_rows_a_joint) * (joints.size() + beside);
         return std::min<std::size_t>(all, most_closure_rows - rows) / greatest_point_count;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "memory/sort_numbers.h"
-#include "rigid/body_roots.h"
 
 namespace lks {
 namespace {
@@ -64,14 +63,6 @@ void find_ranges(RigidScene& scene) {
 }
 
 } // namespace
-
-void join_figures(RigidScene& scene) {
-    BodyRoots roots(scene, scene.figures);
-    roots.join_by_joints();
-    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-        scene.figures[i] = roots.root(i);
-    }
-}
 
 void find_figures(RigidScene& scene) {
     scene.figure_parts.clear();

@@ -2,13 +2,26 @@
 // and nothing else in a substep, work on two of them.
 #pragma once
 
+#include "rigid/body_roots.h"
 #include "rigid/pair.h"
 #include "rigid/rigid_scene.h"
 
 namespace lks {
 
-// Into scene.figures, once a tick: joints come and go between ticks.
-void join_figures(RigidScene& scene);
+// Into scene.figures, once a tick: joints come and go between ticks. join_more(roots): what else holds them
+// together.
+template <typename JoinMore>
+void join_figures(RigidScene& scene, const JoinMore& join_more) {
+    BodyRoots roots(scene, scene.figures);
+    roots.join_by_joints();
+    join_more(roots);
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        scene.figures[i] = roots.root(i);
+    }
+}
+inline void join_figures(RigidScene& scene) {
+    join_figures(scene, [](BodyRoots&) {});
+}
 // Of what is awake in this tick, in the order of the least bodies. After join_figures and find_articulations.
 void find_figures(RigidScene& scene);
 

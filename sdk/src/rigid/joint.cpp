@@ -88,15 +88,8 @@ Vec3 points_apart(const Joint& joint, const Body& a, const Body& b, bool in_subs
 }
 
 Vec3 left_of_points(const Joint& joint, const Body& a, const Body& b) {
-    Vec3 left = points_apart(joint, a, b, true);
-    if (has_soft_points(joint.constants)) { // of which nothing is kept
-        const Softness& softness = joint.constants.points;
-        left = soften(softness, left, left - joint.begin, joint.push);
-        clamp_vector(left, greatest_step_of(softness));
-    } else {
-        clamp_vector(left, greatest_step);
-    }
-    return left;
+    const Vec3 apart = points_apart(joint, a, b, true);
+    return left_of(joint.constants.points, apart, apart - joint.begin, joint.push);
 }
 
 void forget_pushes(Joint& joint) {

@@ -4,7 +4,6 @@
 
 #include "memory/sort_numbers.h"
 #include "rigid/articulation.h"
-#include "rigid/body_roots.h"
 #include "rigid/figures.h"
 #include "rigid/joint_drive.h"
 
@@ -19,7 +18,9 @@ constexpr std::uint32_t nothing = UINT32_MAX;
 
 class LightFeet {
 public:
-    LightFeet(RigidScene& scene, const fixed::Vec3& gravity) : scene_(scene), gravity_(gravity) {}
+    LightFeet(RigidScene& scene, const fixed::Vec3& gravity)
+        : scene_(scene), gravity_(gravity), gravity_size_(static_cast<std::int64_t>(fixed::length(gravity))) {
+    }
 
     bool find() {
         for (ArticulatedBody& body : scene_.articulated) {
@@ -28,8 +29,13 @@ public:
         for_each_touch([this](std::uint32_t, std::uint32_t body, std::uint32_t) {
             scene_.articulated[body].touches = true;
         });
+        bool any_stands = false;
         for (ArticulatedTree& tree : scene_.trees) {
             tree.stands = stands(tree);
+            any_stands = any_stands || tree.stands;
+        }
+        if (!any_stands) {
+            return false;
         }
         const bool any_bears = find_bearers();
         if (any_bears) {
@@ -40,7 +46,7 @@ public:
                 add(contact, body);
             }
         });
-        for (std::uint32_t i = 0; i < scene_.contacts.size(); ++i) {
+        for (std::uint32_t i = 0; any_bears && i < scene_.contacts.size(); ++i) {
             const std::uint32_t body = body_on_still(i);
             if (body != nothing && scene_.articulated[body].bears_feet) {
                 add(i, body);
@@ -74,7 +80,7 @@ private:
     // By at least half of what it pushes.
     bool lifts(const Contact& contact, bool a) const {
         const std::int64_t along = fixed::dot(contact.normal(), gravity_); // towards b
-        return 2 * (a ? along : -along) > static_cast<std::int64_t>(fixed::length(gravity_));
+        return 2 * (a ? along : -along) > gravity_size_;
     }
 
     // use(contact, body, bearer): of one of a tree with what does not move, or with a body by itself that
@@ -125,16 +131,13 @@ private:
     }
     // In this tick they are one figure.
     void join_with_bearers() {
-        BodyRoots roots(scene_, scene_.figures);
-        roots.join_by_joints();
-        for_each_foot([&](std::uint32_t, std::uint32_t body, std::uint32_t bearer) {
-            if (bearer != nothing && scene_.articulated[bearer].bears_feet) {
-                roots.join(body, bearer);
-            }
+        join_figures(scene_, [this](BodyRoots& roots) {
+            for_each_foot([&](std::uint32_t, std::uint32_t body, std::uint32_t bearer) {
+                if (bearer != nothing && scene_.articulated[bearer].bears_feet) {
+                    roots.join(body, bearer);
+                }
+            });
         });
-        for (std::uint32_t i = 0; i < scene_.bodies.size(); ++i) {
-            scene_.figures[i] = roots.root(i);
-        }
     }
 
     bool stands(const ArticulatedTree& tree) const {
@@ -183,6 +186,7 @@ private:
 
     RigidScene& scene_;
     fixed::Vec3 gravity_;
+    std::int64_t gravity_size_;
 };
 
 } // namespace
